@@ -17,7 +17,7 @@ struct LawParameter {
   double otherwise = required;  ///< the value where none is given
 };
 
-/// Of a law with at most four, in the order of its row.
+/// Parameters of a law, at most four, in the order of its row.
 using LawParameters = std::array<double, 4>;
 
 constexpr LawParameters default_values(std::span<const LawParameter> parameters) {

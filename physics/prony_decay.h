@@ -4,7 +4,7 @@
 
 namespace pfdm {
 
-/// What is left of a branch at the end of a step of the length x = dt/tau.
+/// Remainder of a branch at the end of a step of the length x = dt/tau.
 struct PronyDecay {
   double left = 1.0;    ///< exp(-x), of what its spring had
   double phi = 1.0;     ///< (1 - exp(-x))/x, of the change of strain

@@ -17,7 +17,7 @@ constexpr DegradationLaw quadratic{
     .g_second = [](double, const LawParameters&) { return 2.0; },
 };
 
-// What is left, s = (1-d)^p, and what is lost, q = a1 d (1 + a2 d + a2 a3 d^2), with their derivatives: g = s/(s+q).
+// Intact share s = (1-d)^p and lost share q = a1 d (1 + a2 d + a2 a3 d^2), with their derivatives: g = s/(s+q).
 struct Shares {
   double s, s1, s2, q, q1, q2;
 };

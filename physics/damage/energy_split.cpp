@@ -42,7 +42,7 @@ Tensor degraded_stress(const EnergySplit& split, const IsotropicElasticity& c, d
   return to_tensor(degraded_tangent(split, c, g, eps) * to_mandel(eps));
 }
 
-// What is kept of the sound material belongs to it.
+// The part of the stress that the split keeps belongs to the sound material.
 MandelMatrix degraded_tangent(const EnergySplit& split, const AnisotropicElasticity& c, double g, const Tensor& eps) {
   if (g == 1.0) return c.stiffness;
   return g * c.stiffness + (1.0 - g) * split.law().kept_of(c, eps);

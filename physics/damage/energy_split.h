@@ -80,11 +80,12 @@ class EnergySplit {
 /// influence. At eps = 0 cracks are open.
 MandelMatrix degraded_tangent(const EnergySplit& split, const IsotropicElasticity& c, double g, const Tensor& eps);
 
-/// What damage degrades of the stress [Pa], before it does: dpsi_plus/deps of a variational split.
+/// The part of the stress that damage degrades, before it does [Pa]: dpsi_plus/deps of a variational split.
 Tensor degradable_stress(const EnergySplit& split, const IsotropicElasticity& c, const Tensor& eps);
 Tensor degraded_stress(const EnergySplit& split, const IsotropicElasticity& c, double g, const Tensor& eps);
 
-/// The same of an elasticity that depends on the direction, for which the split must be.
+/// Tangent [Pa], degradable stress [Pa] and energies where the elasticity depends on the direction, which the split
+/// must allow.
 MandelMatrix degraded_tangent(const EnergySplit& split, const AnisotropicElasticity& c, double g, const Tensor& eps);
 Tensor degradable_stress(const EnergySplit& split, const AnisotropicElasticity& c, const Tensor& eps);
 SplitEnergy energy(const EnergySplit& split, const AnisotropicElasticity& c, const Tensor& eps);
@@ -92,7 +93,7 @@ SplitEnergy energy(const EnergySplit& split, const AnisotropicElasticity& c, con
 std::span<const SplitLaw> energy_splits();
 /// The names of those with isotropic secant moduli, for messages: "none, volumetric_deviatoric ...".
 std::string splits_with_secant();
-/// Of those for which elasticity may depend on the direction.
+/// Names of the splits that allow elasticity which depends on the direction.
 std::string splits_for_anisotropy();
 /// Throws InputError naming those there are.
 const SplitLaw& split_law(std::string_view name);

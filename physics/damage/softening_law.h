@@ -28,7 +28,7 @@ std::span<const SofteningLaw> softening_laws();
 /// Throws InputError naming those there are.
 const SofteningLaw& softening_law(std::string_view name);
 
-/// Of the rational degradation.
+/// Coefficients a1, a2, a3 and exponent p of the rational degradation.
 struct RationalCoefficients {
   double p = 2.0, a1 = 0.0, a2 = 0.0, a3 = 0.0;
 };

@@ -33,7 +33,7 @@ void rotate(int p, int q, MandelMatrix& A, MandelMatrix& V) {
   for (int k = 0; k < n_components; ++k) turn(V(k, p), V(k, q));
 }
 
-// Of a symmetric, positive matrix.
+// Square root of a symmetric, positive matrix.
 MandelMatrix square_root(MandelMatrix A) {
   constexpr int sweeps = 12;  // it converges quadratically; six do for rounding
   MandelMatrix V = MandelMatrix::Identity(), root = MandelMatrix::Zero();

@@ -8,7 +8,8 @@
 
 namespace pfdm {
 
-/// Of the axes 1, 2, 3: moduli [Pa], nu12 the contraction along 2 under a stress along 1, shear moduli [Pa].
+/// Constants of an orthotropic material in its axes 1, 2, 3: Young's moduli [Pa], Poisson's ratios, shear moduli [Pa].
+/// nu12 is the contraction along 2 under a stress along 1.
 struct OrthotropicConstants {
   double E1, E2, E3, nu12, nu13, nu23, G12, G13, G23;
 };
@@ -16,11 +17,11 @@ struct OrthotropicConstants {
 /// Stiffness [Pa] along its axes. Throws InputError where the energy is not positive for every strain.
 MandelMatrix orthotropic_stiffness(const OrthotropicConstants& c);
 
-/// Of a cubic crystal, by its constants [Pa]. Throws likewise.
+/// Stiffness of a cubic crystal by its constants [Pa]. Throws as orthotropic_stiffness().
 MandelMatrix cubic_stiffness(double C11, double C12, double C44);
 
-/// Of the 21 constants C_IJ [Pa] of Voigt's notation, rows of the upper triangle, in the order xx, yy, zz, yz, xz, xy:
-/// sigma = C (eps_xx ... 2 eps_xy). Throws likewise.
+/// Stiffness by the 21 constants C_IJ [Pa] of Voigt's notation, rows of the upper triangle, in the order xx, yy, zz,
+/// yz, xz, xy: sigma = C (eps_xx ... 2 eps_xy). Throws as orthotropic_stiffness().
 MandelMatrix general_stiffness(const std::array<double, 21>& voigt);
 
 /// The right-handed axes, as columns, of which the first two lie along `first` and, as far as it is normal to that,
@@ -36,7 +37,7 @@ struct AnisotropicElasticity {
   MandelMatrix root;        ///< C^(1/2), symmetric and positive [Pa^(1/2)]
   double bulk_modulus = 0;  ///< pressure over the volume that it takes away, 1/(I : C^-1 : I) [Pa]
 };
-/// Of a C with a positive energy.
+/// Anisotropic elasticity by a stiffness C [Pa] with a positive energy.
 AnisotropicElasticity anisotropic_elasticity(const MandelMatrix& C);
 
 /// Whether strains within the plane normal to n, and across it, make no shear stress across it.

@@ -9,7 +9,7 @@ struct Moduli {
   double K, G;
 };
 
-// Of both projections of a stiffness or of a compliance: 3K and 2G, or their inverses.
+// Projections of a stiffness or of a compliance on its isotropic parts: 3K and 2G, or their inverses.
 Moduli projections(const MandelMatrix& C) {
   return {C.cwiseProduct(volumetric_projector()).sum(), C.cwiseProduct(deviatoric_projector()).sum() / 5.0};
 }

@@ -1,6 +1,6 @@
 #pragma once
-// What a stiffness matrix says in few numbers: the closest isotropic moduli, how far from them it is; and the bounds
-// within which the moduli of an isotropic composite lie.
+// Stiffness matrices in few numbers: the closest isotropic moduli, and the distance from them. Bounds within which the
+// moduli of an isotropic composite lie.
 
 #include "physics/elasticity/mandel.h"
 

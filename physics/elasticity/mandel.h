@@ -17,7 +17,7 @@ using MandelMatrix = Eigen::Matrix<double, 6, 6>;
 constexpr int n_components = 6;
 constexpr std::array<std::string_view, 6> component_names{"xx", "yy", "zz", "yz", "xz", "xy"};
 
-/// What the tensor component k is multiplied by.
+/// Factor of the tensor component k in its Mandel vector.
 constexpr double mandel_factor(int k) { return k < 3 ? 1.0 : std::numbers::sqrt2; }
 
 inline Mandel to_mandel(const Tensor& a) {

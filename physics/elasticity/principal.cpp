@@ -15,7 +15,7 @@ double shear_slope(const PrincipalAxes& strain, const PrincipalStress& sigma, In
   return 0.5 * (sigma.slope(i, i) + sigma.slope(j, j)) - sigma.slope(i, j);
 }
 
-// Of the pairs 23, 13 and 12.
+// Shear slopes of the pairs of axes 23, 13 and 12.
 Vector shear_slopes(const PrincipalAxes& strain, const PrincipalStress& sigma) {
   return {shear_slope(strain, sigma, 1, 2), shear_slope(strain, sigma, 0, 2), shear_slope(strain, sigma, 0, 1)};
 }
@@ -40,7 +40,7 @@ Directions directions(const PrincipalAxes& strain) {
 
 namespace {
 
-// Of a tensor without shear across the plane 12: by the angle of its first axis, 2 phi.
+// Principal axes of a tensor without shear across the plane 12, by the angle of its first axis, 2 phi.
 PrincipalAxes axes_in_plane(const Tensor& a) {
   const double half = 0.5 * (a(0, 0) - a(1, 1)), mean = 0.5 * (a(0, 0) + a(1, 1)), shear = a(1, 0);
   const double radius = std::hypot(half, shear), phi = 0.5 * std::atan2(shear, half);

@@ -43,7 +43,7 @@
 
 namespace pfdm {
 
-/// Of one place of an interface.
+/// Strength and stiffness at one place of an interface.
 struct InterfaceStrength {
   double strength = 0.0;         ///< in opening [Pa]
   double toughness = 0.0;        ///< likewise [J/m^2]
@@ -113,7 +113,7 @@ struct InterfaceLaw {
                             const InterfaceHistory& before, double duration = 0.0) const;
   /// Stiffness of the unbroken interface in opening [Pa/m].
   double initial_stiffness(const InterfaceStrength& at) const;
-  /// Likewise in shear.
+  /// Stiffness of the unbroken interface in shear [Pa/m].
   double initial_shear_stiffness(const InterfaceStrength& at) const;
   /// Steepest fall of the traction in opening [Pa/m], positive.
   double steepest_fall(const InterfaceStrength& at) const;

@@ -1,4 +1,4 @@
-// What interfaces have dissipated and what is left to dissipate: member functions of interface_law.h.
+// Energy that interfaces have dissipated and have left to dissipate: member functions of interface_law.h.
 
 #include "physics/interfaces/interface_opening.h"
 
@@ -24,7 +24,7 @@ struct BeyondRise {
 
 }  // namespace
 
-// Of the secant at constant lambda, by B.
+// Derivative of the secant by the mode mixity B, at constant lambda.
 double InterfaceLaw::secant_by_mode(const InterfaceStrength& at, const ModeMixture& m, const LawPoint& p,
                                     double lambda) const {
   const BeyondRise beyond(m, at.stiffness, lambda);
@@ -33,7 +33,7 @@ double InterfaceLaw::secant_by_mode(const InterfaceStrength& at, const ModeMixtu
   return (p.traction / m.strength * m.strength_by_B + m.strength * f_slope * beyond.w_by_B) / lambda;
 }
 
-// Of the law's work at constant lambda, by B.
+// Derivative of the law's work by the mode mixity B, at constant lambda.
 double InterfaceLaw::work_by_mode(const InterfaceStrength& at, const ModeMixture& m, double lambda) const {
   const BeyondRise beyond(m, at.stiffness, lambda);
   if (lambda < beyond.rise) return 0.0;
@@ -88,7 +88,7 @@ double InterfaceLaw::damage(const InterfaceStrength& at, const Vector& n, const 
   return history.dissipated / (history.dissipated + left);
 }
 
-// Of a rule with one law for all modes, whose lambda grows from `reached`.
+// Loss by a rule with one law for all modes, whose lambda grows from `reached`.
 InterfaceLaw::Loss InterfaceLaw::lost(const InterfaceStrength& at, const Opening& from, const Opening& to,
                                       double reached, const LawPoint& p, const Vector& secant_slope) const {
   const double share = from.lambda > 0.0 ? mean_of_ends(from.share(), to.share()) : to.share();
@@ -123,7 +123,7 @@ double InterfaceLaw::stored_after(const InterfaceStrength& at, const InterfaceHi
   return 0.5 * (S_n * opened * opened + shear_secant_after(at, history) * history.shear.squaredNorm());
 }
 
-// Of a response without rate, contact and friction.
+// Adds the resistance by rate to a response without rate, contact and friction.
 void InterfaceLaw::resist(const InterfaceStrength& at, const Opening& o, const InterfaceHistory& before,
                           double duration, InterfaceResponse& response) const {
   const double growth = o.lambda - Opening::of(*this, o.n, before).lambda;

@@ -10,7 +10,7 @@
 
 namespace pfdm {
 
-/// Of a step, by the values at its two ends.
+/// Mean over a step, from the values at its two ends.
 inline double mean_of_ends(double a, double b) { return 0.5 * (a + b); }
 
 /// The potential of the rule xu_needleman.
@@ -46,8 +46,8 @@ struct InterfaceLaw::Opening {
   }
   bool is_closed() const { return normal < 0.0; }
   double opened() const { return std::max(0.0, normal); }
-  // Of the energy of a separation over that of the law in opening at the same lambda: traction and separation are not
-  // those of one potential where rho and k differ.
+  // Energy of a separation over that of the law in opening at the same lambda. Traction and separation are not those of
+  // one potential where rho and k differ.
   double share() const { return 1.0 - B + B * k / rho; }
   Vector share_slope() const { return 2.0 / (lambda * lambda) * (pulled - share() * measured); }
   Vector B_slope() const { return 2.0 / (lambda * lambda) * (rho * shear - B * measured); }
@@ -69,7 +69,7 @@ struct InterfaceLaw::Pull {
   Vector shear_slope;    // its derivative by the separation
 };
 
-/// What a step dissipates [J/m^2], with its derivative by the separation at the step's end [Pa].
+/// Energy that a step dissipates [J/m^2], with its derivative by the separation at the step's end [Pa].
 struct InterfaceLaw::Loss {
   double energy;
   Vector slope;

@@ -1,7 +1,7 @@
 #pragma once
-// How the rate of its opening raises the traction of an interface: T = (1 + r(v)) T_0, with T_0 of the law without rate
-// (interface_law.h) and v = d lambda/dt the rate of the equivalent separation, while it grows; r = 0 at rest and where
-// it falls. Strength and toughness grow by the same factor:
+// Factor by which the rate of opening raises the traction of an interface: T = (1 + r(v)) T_0, with T_0 of the law
+// without rate (interface_law.h) and v = d lambda/dt the rate of the equivalent separation, while it grows; r = 0 at
+// rest and where it falls. Strength and toughness grow by the same factor:
 //
 //   power         r = (v/v_0)^m   the toughness of rubbers and adhesives over the speed (Maugis, Barquins,
 //                 J. Phys. D 11 (1978) 1989), as a law of the interface (Corigliano, Ricci,

@@ -18,7 +18,7 @@ double integral(double from, const std::function<double(double)>& f) {
   return sum * (1.0 - from) / points;
 }
 
-// Where a function that falls crosses zero.
+// Place at which a falling function crosses zero.
 double root_of_falling(double low, double high, const std::function<double(double)>& f) {
   for (int i = 0; i < bisections; ++i) {
     const double middle = 0.5 * (low + high);

@@ -13,7 +13,7 @@
 
 namespace pfdm {
 
-/// What lies beyond the band on one side.
+/// Material beyond a band on one side.
 struct BandNeighbour {
   double Gc = 0.0;  ///< [J/m^2]; infinite where nothing can be damaged
 };

@@ -38,7 +38,7 @@ struct TractionSeparationLaw {
   /// [Pa] at the separation [m] (zero for negative ones), strength [Pa], energy [J/m^2] and shape.
   double (*traction)(const TractionSeparationLaw& law, double separation, double strength, double energy,
                      std::span<const double> shape);
-  /// The same with slope and work; a negative separation counts as zero, with the slope of the law's beginning.
+  /// Value, slope and work of the law. A negative separation counts as zero, with the slope of the law's beginning.
   LawPoint (*at)(const TractionSeparationLaw& law, double separation, double strength, double energy,
                  std::span<const double> shape);
 

@@ -19,7 +19,7 @@ struct XuNeedleman {
   double length_n = 0.0;  ///< [m]
   double length_s = 0.0;  ///< [m]
 
-  /// Of strengths [Pa] and toughnesses [J/m^2] in opening and in shear.
+  /// Law by strengths [Pa] and toughnesses [J/m^2] in opening and in shear.
   static XuNeedleman of(double strength, double toughness, double shear_strength, double shear_toughness);
 
   double potential(double x, double y) const;      ///< [J/m^2]
@@ -29,7 +29,7 @@ struct XuNeedleman {
   double normal_secant_by_y(double x, double y) const;
   double shear_secant_by_x(double x, double y) const;
   double shear_secant_by_y(double x, double y) const { return -2.0 * y * shear_secant(x, y); }
-  /// What unloading from x and y gives back [J/m^2].
+  /// Energy that unloading from x and y gives back [J/m^2].
   double stored(double x, double y) const;
 };
 

@@ -15,7 +15,7 @@ namespace pfdm {
 class FreeDeformation {
  public:
   FreeDeformation() = default;  ///< none
-  /// By the eigenstrain eps* [-], symmetric and with principal values above -1.
+  /// Free deformation by the eigenstrain eps* [-], symmetric and with principal values above -1.
   explicit FreeDeformation(const Tensor& eigenstrain)
       : strain_(eigenstrain),
         inverse_((Tensor::Identity() + eigenstrain).inverse()),

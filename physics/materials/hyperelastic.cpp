@@ -40,7 +40,7 @@ PotentialAt by_gradient(double energy, const Tensor& F, const Mandel& S, const M
   return result;
 }
 
-// What a function of J adds.
+// Potential of a function of J at F, by its value and derivatives.
 PotentialAt by_volume(const Tensor& F, double value, double slope, double curvature) {
   const Tensor cof = cofactor(F);
   const Components normal = to_components(cof);

@@ -85,15 +85,16 @@ class HyperelasticMaterial final : public Material {
   bool is_finite_strain() const override { return true; }
   std::size_t history_size() const override { return 0; }
 
-  /// Of W. Of laws whose shear part is not finite for every F the energy may be infinite or NaN where det F <= 0.
+  /// W and its derivatives. For laws whose shear part is not finite for every F the energy may be infinite or NaN where
+  /// det F <= 0.
   PotentialAt potential(const Tensor& H) const { return potential_with(Lambda_, H, volume_change(H)); }
-  /// The same where the volume is another than det F, J = 1 + `change`: W_s(C) - p0 ln J + U(J), and its derivatives
-  /// with those of J in the direction of cof F. Of cells whose volume is not that of their mean gradient.
+  /// W_s(C) - p0 ln J + U(J) where the volume J = 1 + `change` is another than det F, and its derivatives with those of
+  /// J in the direction of cof F. For cells whose volume is not that of their mean gradient.
   PotentialAt potential(const Tensor& H, double change) const { return potential_with(Lambda_, H, change); }
-  /// Of W_c = W(J^(1/3) 1) where J < 1, zero elsewhere: the part that a split into volumetric (J >= 1) and isochoric
-  /// energy keeps from damage.
+  /// W_c = W(J^(1/3) 1) where J < 1, zero elsewhere, and its derivatives: the part that a split into volumetric (J >=
+  /// 1) and isochoric energy keeps from damage.
   PotentialAt compression(const Tensor& H) const { return compression_with(Lambda_, H, volume_change(H)); }
-  /// The same of W_m, which has no share c of U.
+  /// W_m, which has no share c of U, and its derivatives.
   PotentialAt moderate_potential(const Tensor& H) const { return moderate_potential(H, volume_change(H)); }
   PotentialAt moderate_potential(const Tensor& H, double change) const {
     return potential_with(Lambda_ - pressure_modulus_, H, change);
@@ -102,17 +103,17 @@ class HyperelasticMaterial final : public Material {
   PotentialAt moderate_compression(const Tensor& H, double change) const {
     return compression_with(Lambda_ - pressure_modulus_, H, change);
   }
-  /// Of the tangent A at F, which has this lambda at F = 1: mu, or a mean over three directions of laws that stiffen
-  /// [Pa].
+  /// Shear modulus of the tangent A at F, which has this lambda at F = 1: mu, or for laws that stiffen a mean over
+  /// three directions [Pa].
   double shear_modulus(const Tensor& F, const GradientTangent& A, double lambda) const;
   /// c Lambda [Pa]; zero of materials that have no pressure.
   double pressure_modulus() const { return pressure_modulus_; }
-  /// Where c Lambda is multiplied by g.
+  /// Volume by the pressure q, where c Lambda is multiplied by g.
   VolumeAt volume(double q, double g) const;
 
   MaterialResponse update(const MaterialStep& step, std::span<double> history) const override;
   Tensor stress(const Tensor& H, std::span<const double> history) const override;
-  /// Of the splits `none` and `volumetric_deviatoric`.
+  /// Energies for the splits `none` and `volumetric_deviatoric`.
   MaterialEnergy energy(const Tensor& H, std::span<const double> history, const EnergySplit& split) const override;
 
  private:

@@ -62,7 +62,7 @@ class Material {
   virtual bool is_finite_strain() const { return false; }
   /// Whether the response depends on the duration of a step, which must then be positive.
   virtual bool depends_on_rate() const { return false; }
-  /// What is left of the elasticity after any time under a strain that is held.
+  /// Elasticity that is left after any time under a strain that is held.
   virtual IsotropicElasticity relaxed_elasticity() const { return elasticity_; }
   /// Whether pressure and volume change are linear in each other over a step, p = K tr eps + p_0, whatever the deviator
   /// does. Nearly incompressible cells of such a law have p as an unknown.

@@ -83,7 +83,8 @@ class Prony final : public SmallStrainMaterial {
             .tangent = stiffness_matrix({.lambda = K - 2.0 * mu / 3.0, .mu = mu})};
   }
 
-  // What the springs store beside the instantaneous elasticity at the strain less the mean viscous one.
+  // Inelastic strain, and the energy that the springs store beside the instantaneous elasticity at the strain less the
+  // mean viscous one.
   Inelastic inelastic(std::span<const double> history) const override {
     const Mandel mean = Eigen::Map<const Mandel>(history.data() + mean_);
     double locked =

@@ -38,7 +38,7 @@ struct PronyLaw {
   PronyDrive drive = PronyDrive::equilibrium;
 };
 
-/// By a step of this duration [s]: the moduli that the change of strain meets [Pa].
+/// Moduli [Pa] that a change of strain meets in a step of this duration [s].
 IsotropicElasticity elasticity_over(const PronyLaw& law, double duration);
 
 /// The elasticity of the material is the instantaneous one: relaxed moduli and all branches. Its results show

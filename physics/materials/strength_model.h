@@ -21,7 +21,7 @@ namespace pfdm {
 
 class Material;
 
-/// What the law of a material is made of.
+/// Data of a material for its strength model.
 struct StrengthData {
   IsotropicElasticity elasticity;
   double tensile = 0.0;      ///< strength in uniaxial tension [Pa]
@@ -80,7 +80,7 @@ class StrengthModel {
   double force(const Tensor& sigma) const;
   /// Whether psi_plus drives damage at the undamaged stress.
   static bool opens(const Tensor& sigma) { return sigma.trace() >= 0.0; }
-  /// Of the undamaged stress over the strength surface: 1 on it.
+  /// Undamaged stress over the strength surface: 1 on it.
   double surface(const Tensor& sigma) const;
 
  private:

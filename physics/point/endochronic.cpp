@@ -191,7 +191,8 @@ void advance_terms(const EndochronicLaw& law, EndochronicState& state, const Man
   }
 }
 
-/// Of a step without deviatoric strain. The tangent is that of virgin material: the true one depends on the direction.
+/// Result of a step without deviatoric strain. The tangent is that of virgin material: the true one depends on the
+/// direction.
 EndochronicUpdate volumetric_step(const Step& step, EndochronicUpdate result) {
   Trial t{};
   for (const KernelTerm& term : step.law.kernel) t.g += term.C;

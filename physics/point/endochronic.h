@@ -69,9 +69,9 @@ struct EndochronicUpdate {
   bool converged = false;
 };
 
-/// What the stress does at constant strain where it is higher than a law that depends on the rate bears at rest: the
-/// equations of the step have the solution without plastic strain, and the one that strain rates lead to as they fall
-/// to zero. With the latter, a solver for the strain has to know where it may begin (solver/point/rest_flow.h).
+/// Behaviour of a stress above the stress at rest of a law that depends on the rate, at constant strain. The equations
+/// of the step have two solutions: one without plastic strain, and the one that strain rates lead to as they fall to
+/// zero. With the latter, a solver for the strain has to know where it may begin (solver/point/rest_flow.h).
 enum class AtConstantStrain { stays, relaxes };
 
 /// A step of `strain_increment` in the time dt [s], which only laws that depend on the rate look at. Not converged only
@@ -79,8 +79,8 @@ enum class AtConstantStrain { stays, relaxes };
 EndochronicUpdate update(const EndochronicLaw& law, const EndochronicState& state, const Mandel& strain_increment,
                          double dt, AtConstantStrain at_constant_strain = AtConstantStrain::stays);
 
-/// What a step would be if its path grew by a given dzeta: linear in the strain, d eps_p = (mu de + shift) / stiffness.
-/// It is a step of the law where |mu de + shift| = stiffness dzeta.
+/// A step whose path grows by a given dzeta, linear in the strain: d eps_p = (mu de + shift) / stiffness. It is a step
+/// of the law where |mu de + shift| = stiffness dzeta.
 struct StepOfPath {
   Mandel shift;            ///< 1/2 sum s_r (1 - exp(-alpha_r dz)) [Pa]
   double stiffness = 0.0;  ///< mu + sum C_r phi1(alpha_r dz) [Pa]

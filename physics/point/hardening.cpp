@@ -37,8 +37,8 @@ FactorValue interpolated(std::span<const double> p, double zeta) {
   return {f[above - 1] + slope * (zeta - x[above - 1]), slope};
 }
 
-/// Where an argument lies among rising points: between `below` and the next one, at `part` of the way. At the ends
-/// outside, where nothing changes.
+/// Place of an argument among rising points: between `below` and the next one, at `part` of the way. Arguments outside
+/// are at the ends, where nothing changes.
 struct Place {
   std::size_t below = 0;
   double part = 0.0;

@@ -1,8 +1,8 @@
 #pragma once
-// How the intrinsic time of the endochronic law slows down: dz = dzeta / f(zeta, zeta_dot), f = F(zeta) R(zeta_dot), or
-// F(zeta, zeta_dot) from a table (AFRL-RW-EG-TR-2016-088, A5.2.2).
-// Stresses saturate in proportion to f: f > 1 hardens, f < 1 softens. (f, alpha_r) and (l f, l alpha_r) are the same
-// material, so f(0) = 1 is what the laws take unless told otherwise.
+// Slow-down of the intrinsic time of the endochronic law: dz = dzeta / f(zeta, zeta_dot), f = F(zeta) R(zeta_dot), or
+// F(zeta, zeta_dot) from a table (AFRL-RW-EG-TR-2016-088, A5.2.2). Stresses saturate in proportion to f: f > 1 hardens,
+// f < 1 softens. (f, alpha_r) and (l f, l alpha_r) are the same material, so f(0) = 1 is what the laws take unless told
+// otherwise.
 
 #include "physics/law_parameters.h"
 
@@ -43,7 +43,7 @@ struct RateTable {
 };
 /// Throws InputError if the numbers are not those of a table.
 RateTable rate_table(std::span<const double> p);
-/// The same numbers the other way round.
+/// Numbers of a table from its columns, the inverse of rate_table().
 std::vector<double> rate_table_parameters(std::vector<double> zeta, const std::vector<double>& rate,
                                           const std::vector<double>& f);
 

@@ -61,14 +61,14 @@ double static_kernel(const MassMaterial& model);
 /// k_1 plus what the kernel adds at rest [N/m]; where it is not positive the mass does not come to rest.
 double static_stiffness(const MassMaterial& model);
 
-/// Where the mass settles under gravity [m/s^2] (negative): k(z0) + f(z0, 0) sum beta/alpha = -m gravity. None if it
-/// falls through: the force does not reach the weight on the branch that starts at z = 0.
+/// Displacement z0 [m] at which the mass settles under gravity [m/s^2] (negative): k(z0) + f(z0, 0) sum beta/alpha = -m
+/// gravity. None if the mass falls through: the force does not reach the weight on the branch that starts at z = 0.
 std::optional<double> static_settling_point(const MassMaterial& model, double gravity);
 
-/// The same model in displacements from z0: the stiffness polynomial expanded about it (A1 to A2).
+/// Model of the same system in displacements from z0: the stiffness polynomial expanded about it (A1 to A2).
 MassMaterial expanded_about(const MassMaterial& model, double z0);
 
-/// Where the small motion takes least energy out of the shaker.
+/// Check of passivity: the frequency at which a small motion takes least energy out of the shaker.
 struct Passivity {
   bool passive = true;       ///< loss stiffness >= 0 all over the band, static stiffness > 0, all alpha > 0
   double worst_omega = 0;    ///< [rad/s]

@@ -1,6 +1,5 @@
 #pragma once
-// What this process may have of the machine: processors and memory, with the limits of control groups (containers,
-// batch systems).
+// Processors and memory that this process may use, with the limits of control groups (containers, batch systems).
 
 #include <filesystem>
 #include <string>

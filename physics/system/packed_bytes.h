@@ -20,7 +20,7 @@ class BytePacker {
     bytes_.append(text);
   }
   void put(const std::string& text) { put(std::string_view(text)); }
-  /// Of numbers, or of fixed-size vectors of numbers.
+  /// Puts numbers, or fixed-size vectors of numbers.
   template <class T>
   void put(const std::vector<T>& values) {
     static_assert(!std::is_pointer_v<T>);
@@ -31,7 +31,7 @@ class BytePacker {
       for (const T& value : values) put(value);
     }
   }
-  /// Of pairs whose parts can be put.
+  /// Puts pairs whose parts can be put.
   template <class Map>
   requires requires { typename Map::mapped_type; }
   void put(const Map& map) {

@@ -23,7 +23,7 @@
 namespace pfdm {
 namespace {
 
-// What an answer begins with.
+// First byte of an answer, by its kind.
 constexpr char result = 'r', wrong_input = 'i', failure = 'f';
 
 /// Empty where memory did not suffice.
@@ -80,7 +80,7 @@ void keep_to(const ProcessLimits& limits) {
   if (limits.bytes < ProcessLimits{}.bytes) lower(RLIMIT_AS, address_space() + limits.bytes);
 }
 
-/// What a library or the system's allocator says when it gives up.
+/// Silences messages of a library or of the system's allocator that gives up.
 void silence_errors() {
 #ifndef __SANITIZE_ADDRESS__  // whose findings are to be seen
   const int nowhere = ::open("/dev/null", O_WRONLY | O_CLOEXEC);

@@ -12,7 +12,7 @@
 
 namespace pfdm {
 
-/// What the process may use; without limits as much as the machine gives.
+/// Limits of the process; without limits it may use as much as the machine gives.
 struct ProcessLimits {
   double seconds = std::numeric_limits<double>::infinity();         ///< of a processor
   std::size_t bytes = std::numeric_limits<std::size_t>::max() / 2;  ///< of memory, beside what this process has
@@ -25,8 +25,9 @@ struct ProcessLimits {
 std::optional<std::string> computed_separately(const std::function<std::string()>& compute,
                                                const ProcessLimits& limits = {});
 
-/// Likewise of a file that a foreign library reads, within a time and a memory that grow with the file and allow for
-/// its compression. Throws InputError, `named` and what is wrong, where the reader crashed or reached a limit.
+/// Answer of `read`, run in a process of its own, which reads a file with a foreign library. Time and memory are
+/// limited; they grow with the file and allow for its compression. Throws InputError, `named` and what is wrong, where
+/// the reader crashed or reached a limit.
 std::string read_separately(const std::filesystem::path& file, std::string_view named,
                             const std::function<std::string()>& read);
 

@@ -28,7 +28,7 @@ std::string reason(const FractureModel& model) {
   return "";
 }
 
-// Of what, and what would mend it.
+// Words on the worst error, its reason and its remedy.
 std::string words_on(const BendingError& worst, const std::string& why) {
   const BendingLayers& at = worst.layers;
   const double nu = worst.poisson_ratio;

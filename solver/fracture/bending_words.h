@@ -1,5 +1,5 @@
 #pragma once
-// What a run does to the bending of few or long cells where they have gradients of one ring (bending_layers.h).
+// Warnings on the bending of few or long cells that have gradients of one ring (bending_layers.h).
 
 #include "solver/fracture/model/fracture_model.h"
 

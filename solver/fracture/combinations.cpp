@@ -107,8 +107,8 @@ void require_history(const FractureModel& m, const Material& law, const LoadingS
                     law.name()));
 }
 
-// Where elasticity relaxes: energies drive the damage, one modulus makes no strength, and what a split keeps in closed
-// cracks is elastic.
+// Refuses a damageable material that relaxes with models that need one elasticity: energies drive the damage, one
+// modulus makes no strength, and the part that a split keeps in closed cracks is elastic.
 void require_relaxing(const FractureModel& m, const RegionModel& region) {
   const IsotropicElasticity relaxed = region.material->relaxed_elasticity();
   if (!region.damageable || relaxed == region.elasticity) return;

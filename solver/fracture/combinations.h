@@ -1,5 +1,5 @@
 #pragma once
-// What may be combined with what in a fracture run. Each check throws InputError that says what excludes what.
+// Allowed combinations of models in a fracture run. Each check throws InputError that says which model excludes which.
 
 #include "solver/fracture/fracture_run.h"
 #include "solver/fracture/model/fracture_model.h"
@@ -12,7 +12,7 @@ namespace pfdm {
 /// Every region of the mesh has what the model needs of it.
 void require_complete(const Mesh& mesh, const FractureModel& model);
 
-/// What stiffness by the mean damage (StiffnessBy::mean) cannot be combined with; empty: nothing of this model.
+/// Models that stiffness by the mean damage (StiffnessBy::mean) cannot be combined with; empty: none of this model's.
 std::string what_excludes_mean_damage(const Mesh& mesh, const FractureModel& model);
 
 /// Splits, materials, strength models, interfaces and the way the load is found.

@@ -1,5 +1,6 @@
 #pragma once
-// What materials of finite strain may be combined with. Each check throws InputError that says what excludes what.
+// Allowed combinations with materials of finite strain. Each check throws InputError that says which model excludes
+// which.
 
 #include "solver/fracture/model/fracture_model.h"
 #include "solver/momentum/body/unknowns.h"

@@ -1,5 +1,5 @@
 #pragma once
-// What is said where a step at finite strain does not converge.
+// Message where a step at finite strain does not converge.
 
 #include "solver/fracture/model/fracture_model.h"
 #include "solver/fracture/staggered.h"

@@ -38,8 +38,8 @@ class FractureRun {
   StepReport report_of(const FractureState& start);
 
   OutputFields output(const FractureState& state);
-  /// What the mean heat of the last whole cycle warms from the start on, in a time of `n` steps [s]; the rises of the
-  /// cells at its end go to `rise` [K]. Throws ComputationError without a whole cycle.
+  /// Warms the body from the start on by the mean heat of the last whole cycle, in a time of `n` steps [s]. The rises
+  /// of the cells at its end go to `rise` [K]. Throws ComputationError without a whole cycle.
   std::vector<HeatRow> warm_by_cycles(const FractureState& state, double time, Index n, CellField<double>& rise);
   const FractureModel& model() const;
   std::vector<std::string> interface_warnings() const;  ///< of cells too large for their laws; of held sides

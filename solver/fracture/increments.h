@@ -1,5 +1,5 @@
 #pragma once
-// How the increments of the load grow and are cut back.
+// Increments of the load: their growth and their cuts.
 
 #include "solver/fracture/model/fracture_model.h"
 #include "solver/fracture/staggered.h"

@@ -35,7 +35,7 @@ double thickness(const Mesh& mesh, Index cell) {
   return std::min(mesh.cell_volume[cell], 2.0 * std::abs(to_face.dot(area))) / area.norm();
 }
 
-// Of a hexahedron of a mesh one cell thick, plane or axisymmetric, the longest edge in its plane; else 0.
+// Longest edge of a hexahedron in the plane of a mesh one cell thick, plane or axisymmetric; else 0.
 double width_in_plane(const Mesh& mesh, Index cell) {
   if (mesh.shape[cell] != CellShape::hexahedron) return 0.0;
   double width = 0.0;
@@ -66,8 +66,9 @@ std::string place_text(const Vector& x) {
 
 bool is_too_thick(double h, double ell) { return h > (1.0 + rounding) * ell / cells_in_ell; }
 
-// What the cells along a band have to resolve [m]: ell, or with softening of a given strength the process zone
-// E' Gc/ft^2 at a crack's front if that is longer, E' = E/(1 - nu^2). In g'(0) = -4 E Gc/(c0 ell ft^2) are Gc and ft.
+// Length that the cells along a band have to resolve [m]: ell, or with softening of a given strength the process zone
+// E' Gc/ft^2 at a crack's front if that is longer, E' = E/(1 - nu^2). Gc and ft follow from g'(0) = -4 E Gc/(c0 ell
+// ft^2).
 double front_length(const FractureModel& model, const RegionModel& region) {
   const Degradation& g = model.degradation_of(region);
   if (!g.is_chosen() || !g.law().needs_strength) return region.ell;
@@ -75,8 +76,8 @@ double front_length(const FractureModel& model, const RegionModel& region) {
   return region.ell * std::max(1.0, softening / (1.0 - nu * nu));
 }
 
-// Of each region the cell that is the thickest for its ell, how many are too thick, the sums of width and of the length
-// of a crack's front, and how many are no wider than that.
+// Sizes of the cells of a region: the cell that is the thickest for its ell, the count of those too thick, the sums of
+// width and of the length of a crack's front, and the count of those no wider than that.
 struct Sizes {
   double thickness = 0.0, ell = 1.0;  // [m]
   double width = 0.0, front = 0.0;    // [m]
@@ -122,7 +123,7 @@ void add_words_on_thickness(const std::string& region, const Sizes& sizes, Resol
                     sizes_words, sizes.n_cells - sizes.n_too_thick, sizes.n_cells, cells_in_ell));
 }
 
-// Of a mesh one cell thick.
+// Adds words on the length of cells in a mesh one cell thick.
 void add_words_on_length(const std::string& region, const Sizes& sizes, ResolutionWords& words) {
   if (sizes.n_cells == 0 || sizes.n_too_long < sizes.n_cells || sizes.n_too_thick == sizes.n_cells) return;
   words.remarks.push_back(

@@ -12,13 +12,13 @@
 namespace pfdm {
 
 struct ResolutionWords {
-  /// Of each region whose cells are all too thick for ell (more than ell/2 across their thinnest direction), and of
-  /// each band whose cells are too wide along it (in the mean, and few are finer) for ell or, if longer, the process
-  /// zone of a law with softening, or that is too narrow for its crack's profile. A crack there would not dissipate its
-  /// toughness, or its front would not be resolved.
+  /// Warnings on regions and bands in which a crack would not dissipate its toughness, or its front would not be
+  /// resolved. A region is named if all its cells are too thick for ell (more than ell/2 across their thinnest
+  /// direction). A band is named if it is too narrow for its crack's profile, or if its cells are too wide along it (in
+  /// the mean, and few are finer). They are compared with ell or, if longer, the process zone of a law with softening.
   std::vector<std::string> warnings;
-  /// Of each region some of whose cells are too thick, as cracks may stay out of them; and of each in a mesh one cell
-  /// thick whose cells are all longer than ell in its plane.
+  /// Remarks on regions some of whose cells are too thick, as cracks may stay out of them, and on regions in a mesh one
+  /// cell thick whose cells are all longer than ell in its plane.
   std::vector<std::string> remarks;
 };
 
@@ -47,8 +47,8 @@ class CoarseCells {
   std::vector<bool> told_;  // region by region
 };
 
-/// What the rows of cells do to directions and surface energy of cracks, in regions of hexahedra in which they may
-/// choose a direction, and what to change (tests/verification/README.md has the measurements); empty: none.
+/// Remark on regions of hexahedra in which cracks may choose a direction: the effect of the rows of cells on their
+/// direction and surface energy, and the remedy (tests/verification/README.md has the measurements); empty: none.
 std::string direction_remark(const Mesh& mesh, const FractureModel& model);
 
 }  // namespace pfdm

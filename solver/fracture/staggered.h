@@ -19,7 +19,7 @@
 
 namespace pfdm {
 
-/// What the last iteration of a step changed.
+/// Changes by the last iteration of a step.
 struct Restless {
   Index cell = 0;       ///< the one whose damage changed most
   double damage = 0.0;  ///< by this
@@ -81,8 +81,8 @@ class Staggered {
   const CellStiffness& stiffness() const { return stiffness_; }
   const CohesiveFaces& faces() const { return faces_; }
   StageClock& clock() { return clock_; }
-  /// Of the boundary forces and of the body forces, which change linearly from one state to the other, at the load `t`
-  /// [J].
+  /// Work of the boundary forces and of the body forces between two states [J], by the trapezoidal rule, at the load
+  /// `t`.
   double work(const FractureState& from, double t, const std::vector<Vector>& force,
               const std::vector<Vector>& displacement) const;
   /// Sets the degraded stiffness of the state in the momentum balance.
@@ -110,9 +110,9 @@ class Staggered {
   double potential_of_loads(const FractureState& state) const;  // elastic foundations included [J]
   double drive(const FractureState& start, FractureState& state, double scale);
   ResidualShare residual_share(const FractureState& state, const Energies& energies);
-  /// Of a strength model, at the equilibrium of this state; empty without.
+  /// Driving force of a strength model at the equilibrium of this state; empty without.
   StrengthDrive strength_drive_of(const FractureState& state);
-  /// What the work of eigenstrains is made of, by cell.
+  /// Moments and eigenstrains of the cells, from which the work of eigenstrains follows.
   struct FreeStrained {
     CellField<Mandel> moment;       // CellStiffness::eigenstrain_moments [J]
     CellField<Mandel> eigenstrain;  // [-]; empty: none

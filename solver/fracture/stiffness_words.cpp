@@ -43,7 +43,7 @@ std::optional<std::string> of_volume(const Mesh& mesh, const FractureModel& mode
       mesh.region_names[mesh.region[worst]], most, n_without, why_without(model, model.in_cell(mesh, worst)));
 }
 
-// Where gaps do not relax, they meet the instantaneous moduli, however far the body has relaxed.
+// Warning on materials whose gaps do not relax: they meet the instantaneous moduli, however far the body has relaxed.
 std::optional<std::string> of_relaxation(const Mesh& mesh, const FractureModel& model) {
   constexpr double usual = 30.0;
   double most = usual;

@@ -1,5 +1,6 @@
 #pragma once
-// Where the mesh makes bodies too stiff that are nearly incompressible without a pressure unknown, or have relaxed.
+// Warnings on cells that are too stiff on this mesh: nearly incompressible ones without a pressure unknown, and relaxed
+// ones.
 
 #include "solver/fracture/model/fracture_model.h"
 

@@ -1,5 +1,5 @@
 #pragma once
-// What to say of a step that did not converge.
+// Messages on a step that did not converge.
 
 #include "solver/fracture/staggered.h"
 
@@ -12,15 +12,15 @@ namespace pfdm {
 /// 3e-04 ...".
 std::string what_changes(const Mesh& mesh, const StaggeredSettings& settings, const StepOutcome& outcome);
 
-/// What else the case allows, to be tried where the smallest increment does not converge.
+/// Remedies that the case allows, to be tried where the smallest increment does not converge.
 struct Remedies {
   bool viscosity = false;
   bool dissipation_control = false;  ///< and something is loaded by tractions, under which cracks may run
 };
-/// What this model allows under this loading; `tractions`: the forces of prescribed tractions [N].
+/// Remedies that this model allows under this loading; `tractions`: the forces of prescribed tractions [N].
 Remedies remedies_of(const Mesh& mesh, const FractureModel& model, const Unknowns& unknowns,
                      const LoadingSettings& loading, const std::vector<Vector>& tractions);
-/// What may help: "what may help: a viscosity (...), ...".
+/// Advice on remedies: "what may help: a viscosity (...), ...".
 std::string what_to_try(const StaggeredSettings& settings, const StepOutcome& outcome, const Remedies& remedies);
 
 }  // namespace pfdm

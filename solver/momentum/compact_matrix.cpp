@@ -49,7 +49,7 @@ void add_sides(const FaceSkeleton& skeleton, const FaceTractions& tractions, Blo
   }
 }
 
-// What a displacement along r stretches across the sector pulls back.
+// Adds the pull of the stretch across the sector, which a displacement along r makes.
 void add_sector(const FaceSkeleton& skeleton, const FaceTractions& tractions, BlockTriplets& matrix) {
   const Vector& r = skeleton.unknowns.radial;
   for (Index c = 0; c < skeleton.sector_area.size(); ++c)

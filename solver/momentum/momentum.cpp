@@ -20,7 +20,7 @@ MomentumOperator::MomentumOperator(const Mesh& mesh, const Unknowns& unknowns)
       springs_(*skeleton_),
       spins_(*skeleton_, cells_->gradient()) {}
 
-// Those of now, if they are of this kind.
+// Tractions of now if they are of this kind, else new ones.
 template <class Kind, class... Parts>
 Kind& MomentumOperator::choose(const Parts&... parts) {
   if (tractions_ && typeid(*tractions_) == typeid(Kind)) return static_cast<Kind&>(*tractions_);

@@ -75,7 +75,7 @@ class MomentumOperator {
   /// Null but at finite strain, and but with isotropic moduli.
   const FiniteTractions* finite() const { return finite_; }
   const IsotropicTractions* isotropic() const { return isotropic_; }
-  /// By a law that is linearised about displacements.
+  /// Whether the law is linearised about displacements.
   bool is_linearised() const { return tractions_->is_linearised(); }
   /// In some cells: cubic_faces.h, at finite strain in none; layer_gradients.h.
   bool is_of_third_order() const { return tractions_->has_third_order(); }
@@ -91,7 +91,7 @@ class MomentumOperator {
   }
   /// Displacement of the neighbour's side of split face number k, less that of the owner's [m].
   Vector separation(std::size_t k, const std::vector<Vector>& u) const { return springs_.separation(k, u); }
-  /// What each side of the split faces does about the displacements u, in their order.
+  /// Tractions and compliances of each side of the split faces under the displacements u, in their order.
   struct SplitSides {
     Vector traction, traction_beyond;  ///< outwards from the owner, from the neighbour [Pa]
     Tensor give, give_beyond;          ///< a^-1: displacement of the side by its traction [m/Pa]
@@ -106,13 +106,13 @@ class MomentumOperator {
   /// out = A u, [N]: minus the sum of forces on each cell; the free part of the forces on each face node; for each
   /// pressure V q / (lambda - lambda_s) - sum u_f.S [m^3]. Without initial stresses.
   void apply(const std::vector<Vector>& u, std::vector<Vector>& out) const { apply(u, out, *sweep()); }
-  /// The same with this sweep, which then has the gradients and forces of u.
+  /// out = A u with this sweep, which then has the gradients and forces of u.
   void apply(const std::vector<Vector>& u, std::vector<Vector>& out, Sweep& sweep) const;
   SpareSweeps::Lease sweep() const { return tractions_->sweep(); }
   /// Forces from prescribed tractions, pressures and body forces at the load parameter t [N]; pressures on the areas of
   /// the last linearisation.
   std::vector<Vector> traction_forces(double t) const { return loads_.forces(t); }
-  /// The same with those from initial stresses, [N].
+  /// Forces from prescribed tractions, pressures, body forces and initial stresses at the load parameter t [N].
   std::vector<Vector> load_vector(double t) const;
   /// Energy in elastic foundations, which is none of the body's [J].
   double foundation_energy(const std::vector<Vector>& u) const { return loads_.stored(u); }

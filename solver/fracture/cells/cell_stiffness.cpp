@@ -131,7 +131,7 @@ StrainLaw CellStiffness::law(const CellField<double>& g, const CellField<double>
           }};
 }
 
-// What the split keeps beyond g times the stiffness is elastic.
+// The part of the stiffness that the split keeps beyond g times it is elastic.
 HistoryStress CellStiffness::with_histories(const FractureState& state, const CellField<double>& g,
                                             CellField<IsotropicElasticity>& moduli) const {
   HistoryStress history = materials_.history_stress(state.histories);

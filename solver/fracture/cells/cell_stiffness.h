@@ -53,13 +53,13 @@ class CellStiffness {
   /// Whether stresses are functions of the strain, linearised about the displacements of the state: equilibrium is
   /// found by Newton's method.
   bool is_linearised() const { return finite_.any() || !is_isotropic_; }
-  /// What a cell stores [J].
+  /// Energy that a cell stores [J].
   double stored_energy(Index cell, const CellMechanics& mechanics, const FractureState& state) const;
   double stored_energy(Index cell, const FiniteEnergies& at, double d) const;
   /// The part of what a cell stores [J] that the residual stiffness alone has, at this driving energy [J/m^3]
   /// (residual_stiffness.h).
   double residual_energy(Index cell, double psi_plus, const FractureState& state) const;
-  /// By which eigenstrains do work, minus these times their growth [J]; empty without eigenstrains.
+  /// Moments [J] of the work of eigenstrains, which is minus these times their growth; empty without eigenstrains.
   CellField<Mandel> eigenstrain_moments(const CellMechanics& mechanics, const FractureState& state,
                                         const Vector& plane_normal) const;
   /// Energy dissipated by the materials [J] from one state to the other, with the heat of what damage has freed and did
@@ -67,7 +67,7 @@ class CellStiffness {
   double plastic_dissipation(const FractureState& from, const FractureState& to) const;
   /// The part of it in a cell [J].
   double plastic_dissipation(Index cell, const FractureState& from, const FractureState& to) const;
-  /// Of the undamaged material [Pa], on which strength depends: at finite strain Biot's.
+  /// Stress of the undamaged material [Pa], on which strength depends: at finite strain Biot's.
   Tensor undamaged_stress(Index cell, const CellMechanics& mechanics, const FractureState& state) const;
   const MaterialCells& materials() const { return materials_; }
   const FiniteCells& finite() const { return finite_; }
@@ -87,7 +87,7 @@ class CellStiffness {
   HistoryStress with_histories(const FractureState& state, const CellField<double>& g,
                                CellField<IsotropicElasticity>& moduli) const;
   const IsotropicElasticity& elasticity(Index cell) const;
-  // Where the elasticity depends on the direction; else null.
+  // Elasticity that depends on the direction; null where it does not.
   const AnisotropicElasticity* anisotropy(Index cell) const {
     return anisotropy_.size() > 0 ? anisotropy_[cell].get() : nullptr;
   }

@@ -79,7 +79,7 @@ Tensor FiniteCells::elastic(const Tensor& H, const FreeDeformation& free) const 
                            : elastic;
 }
 
-// Of the faces, J*/J^2 replaces 1/J_e^2 (FiniteLaw::swelling), and lambda/J* lambda.
+// In the stiffness of faces J*/J^2 replaces 1/J_e^2 (FiniteLaw::swelling), and lambda/J* replaces lambda.
 FiniteLaw FiniteCells::law(Index cell, const Tensor& H, double g, double closure, const FreeDeformation& free) const {
   const Tensor F_e = elastic(H, free);
   FiniteLaw law = is_plane_stress() ? plane_stress_law(cell, F_e, g) : solid_law(cell, F_e, g, closure);
@@ -221,9 +221,9 @@ double FiniteCells::stored_energy(Index cell, const FiniteEnergies& at, double g
   return mesh_.cell_volume[cell] * density;
 }
 
-// Where compression does not drive, W_c is taken off as it is degraded: with a split that keeps it by 1, else by the
-// share of W_m. What the faces add is taken as proportional to g, where nothing is kept; that of a cell which is driven
-// less by compression must not end at J = 1: its damage would go to and fro.
+// W_c is taken off where compression does not drive, as it is degraded: by 1 with a split that keeps it, else by the
+// share of W_m. The energy of the faces is taken as proportional to g where nothing is kept. In a cell that is driven
+// less by compression it must not end at J = 1: its damage would go to and fro.
 DrivingAt FiniteCells::driving_energy(Index cell, const FiniteEnergies& at, double g) const {
   const FiniteShares by = finite_shares(*material_[cell], g);
   const bool whole = keeps(cell, at);
@@ -268,7 +268,7 @@ Tensor FiniteCells::traction_stress(Index cell, const CellMechanics& mechanics, 
   return P + across * (of_law - P) * across;
 }
 
-// What the faces add to the energy is not one of F*.
+// The energy of the faces is not one of F*.
 Tensor FiniteCells::eigenstrain_moment(Index cell, const CellMechanics& mechanics, double g,
                                        const Vector& plane_normal) const {
   FiniteEnergies mean = energies(cell, mechanics, g);

@@ -51,9 +51,10 @@ class FiniteCells {
   /// The closure at the volume J_e, which changes over a range of J_e: the stiffness of the faces may not jump.
   double closure(Index cell, const CellMechanics& mechanics) const;
 
-  /// By its mean gradient and what the tractions of its faces add (momentum.h); g: with which these were found.
+  /// Energies of a cell by its mean gradient and by its faces, the work of whose tractions comes on top (momentum.h).
+  /// g: factor with which the displacements were found.
   FiniteEnergies energies(Index cell, const CellMechanics& mechanics, double g) const;
-  /// What a cell stores [J].
+  /// Energy that a cell stores [J].
   double stored_energy(Index cell, const FiniteEnergies& at, double g) const;
   /// Its derivative by g, per volume, and that one's [J/m^3].
   DrivingAt driving_energy(Index cell, const FiniteEnergies& at, double g) const;
@@ -93,7 +94,7 @@ class FiniteCells {
   Tensor true_deformation(Index cell, const Tensor& H, double g) const;
   Tensor traction_stress(Index cell, const CellMechanics& mechanics, double g, const Vector& plane_normal) const;
   bool keeps_compression(Index cell) const { return split_[cell]->keeps_compression; }
-  // What the split keeps of a cell's parts or energies is not degraded.
+  // Whether the split keeps a cell's parts or energies from the degradation.
   bool keeps(Index cell, const auto& at) const { return at.is_compressed && keeps_compression(cell); }
   PotentialAt damaged(Index cell, const Parts& at, const FiniteShares& by, double g) const;
 

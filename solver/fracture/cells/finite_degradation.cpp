@@ -38,7 +38,7 @@ FiniteShare sound_share(const HyperelasticMaterial& material, double g) {
   return {.value = value, .slope = 0.5 * by_z / z, .curvature = 0.25 * (twice_by_z - by_z / z) / g};
 }
 
-// What is left of the volumetric energy c U of a material with a pressure: g w/(1 + kappa/kappa_s (1 - g)^2).
+// Share of the volumetric energy c U that is left to a material with a pressure: g w/(1 + kappa/kappa_s (1 - g)^2).
 FiniteShare pressure_share(const HyperelasticMaterial& material, double g, const FiniteShare& sound) {
   const double ratio = material.pressure_modulus() / (CellPressure::moderate_lambda * material.elasticity().mu);
   const double lost = 1.0 - g, by = 1.0 + ratio * lost * lost, by_slope = -2.0 * ratio * lost;

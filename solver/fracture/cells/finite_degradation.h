@@ -1,5 +1,5 @@
 #pragma once
-// What damage leaves of the energies of a cell at finite strain (finite_cells.h).
+// Degradation of the energies of a cell at finite strain (finite_cells.h).
 //
 // Broken cells may stretch without end or turn inside out:
 //
@@ -22,7 +22,7 @@
 
 namespace pfdm {
 
-/// What a split does at finite strain: a row of the table of those there are.
+/// Behaviour of a split at finite strain: a row of the table of those there are.
 struct FiniteSplit {
   std::string_view name;
   bool keeps_compression = false;  ///< from the degradation
@@ -37,7 +37,8 @@ struct FiniteShare {
   double value = 1.0, slope = 0.0, curvature = 0.0;
 };
 
-/// What a cell of the factor g has of each energy: of W_m, of the network's, and of the volumetric one of its pressure.
+/// Shares of the energies that a cell with the factor g has: of W_m, of the network's, and of the volumetric one of its
+/// pressure.
 struct FiniteShares {
   FiniteShare moderate, network, pressure;
 };
@@ -46,7 +47,7 @@ struct FiniteShares {
 /// that keeps compression adds (1 - g) W_c, and keeps c U where J < 1.
 FiniteShares finite_shares(const HyperelasticMaterial& material, double g);
 
-/// What W becomes in broken cells, mu/2 (F:F - 3), at the displacement gradient H.
+/// Potential of broken cells, mu/2 (F:F - 3), at the displacement gradient H.
 PotentialAt network_potential(const HyperelasticMaterial& material, const Tensor& H);
 
 }  // namespace pfdm

@@ -32,17 +32,17 @@ class MaterialCells {
   double advance(Index cell, const CellMechanics& mechanics, const CellHistories& from, CellHistories& to);
   /// The undamaged stress about the cell's state.
   LinearStress linearised(Index cell, const CellHistories& histories) const;
-  /// What the moduli that the gaps of a cell meet in the step are more than those of its elasticity, undamaged [Pa].
+  /// Moduli that the gaps of a cell meet in the step, less those of its elasticity, undamaged [Pa].
   IsotropicElasticity beyond_elasticity(Index cell) const;
-  /// What the cells of relaxing materials remember, with room for the stress of every cell.
+  /// Memory of the cells of relaxing materials, with room for the stress of every cell.
   HistoryStress history_stress(const CellHistories& histories) const;
-  /// Of the undamaged material, with what the gaps of its faces have.
+  /// Energies of the undamaged material, with those of the gaps at its faces.
   MaterialEnergy energy(Index cell, const CellHistories& histories) const;
   CellHistories virgin_histories() const;
   std::vector<OutputHistory> output(const CellHistories& histories) const;
 
  private:
-  // Of the law alone, without those of the gaps.
+  // Numbers of the law alone, without those of the gaps.
   std::span<const double> law_numbers(Index cell, const CellHistories& histories) const {
     return histories.of(cell).first(material_[cell]->history_size());
   }

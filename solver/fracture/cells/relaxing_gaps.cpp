@@ -17,7 +17,7 @@ struct Energy {
   double locked = 0.0, heat = 0.0;  // [Pa]
 };
 
-// Of a branch whose spring had r_n and has r while the gap went from z_n to z.
+// Energies of a branch whose spring had r_n and has r while the gap went from z_n to z.
 template <class Value, class Dot>
 Energy energy_of(const PronyBranch& branch, const PronyDecay& by, const Value& r_n, const Value& r, const Value& z_n,
                  const Value& z, const Dot& dot) {

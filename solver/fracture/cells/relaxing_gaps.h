@@ -1,9 +1,9 @@
 #pragma once
-// What cells of relaxing materials (physics/materials/prony.h) remember of the gaps at their faces: what the strain
-// there differs from that of the cell by (CellMechanics::gaps). The law is linear, so that a gap z [-] is a strain that
-// it bears as any other: the traction of a branch is its modulus times r, r' + r/tau = z', and relaxes with it. A gap
-// that met the instantaneous moduli for ever would make a body that has relaxed too stiff.
-// Materials of nu above 0.4 at any time, and bodies in plane stress, have none of it (gaps_relax).
+// Memory of the gaps at the faces of relaxing cells (physics/materials/prony.h). A gap is the difference of the strain
+// there from that of the cell (CellMechanics::gaps). The law is linear, so that a gap z [-] is a strain that it bears
+// as any other: the traction of a branch is its modulus times r, r' + r/tau = z', and relaxes with it. A gap that met
+// the instantaneous moduli for ever would make a body that has relaxed too stiff. Materials of nu above 0.4 at any
+// time, and bodies in plane stress, have none of it (gaps_relax).
 //
 // Half the work of traction and gap is part of a cell's energy. Energies here are per volume of the cell [J/m^3].
 
@@ -30,12 +30,12 @@ IsotropicElasticity stiffest_against_volume(const Material& material);
 
 class RelaxingGaps {
  public:
-  /// Of the materials of the cells, null: elastic; empty: of all.
+  /// Gaps of cells with these materials; null: elastic; empty: all elastic.
   RelaxingGaps(const Mesh& mesh, const CellField<const Material*>& materials, bool in_plane_stress);
 
   bool any() const { return !kinds_.empty(); }
   bool has(Index cell) const { return any() && kind_[cell] >= 0; }
-  /// How many numbers a cell remembers.
+  /// Count of the numbers that a cell remembers.
   std::size_t size(Index cell) const;
   void start_step(double duration);  ///< [s]
 
@@ -46,7 +46,7 @@ class RelaxingGaps {
   /// From the numbers at the start of the step to those at the gaps of now.
   void advance(Index cell, const CellMechanics& mechanics, std::span<const double> from, std::span<double> to) const;
 
-  /// What the gaps have made of heat since the virgin state, and what they store less half of their traction's work.
+  /// Heat of the gaps since the virgin state, and their stored energy less half of the work of their traction [J/m^3].
   static double dissipated(std::span<const double> numbers) { return numbers[0]; }
   static double locked(std::span<const double> numbers) { return numbers[1]; }
 

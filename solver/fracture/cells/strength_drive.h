@@ -13,7 +13,8 @@
 
 namespace pfdm {
 
-/// Of an equilibrium. Both are empty without a strength model, and zero in cells that have none. [J/m^3]
+/// External driving force of an equilibrium and its energy [J/m^3]. Both are empty without a strength model, and zero
+/// in cells that have none.
 struct StrengthDrive {
   CellField<double> force;   ///< c
   CellField<double> closed;  ///< psi_plus - psi_open

@@ -57,7 +57,8 @@ struct DamageTerm {
   const DamageEquation& equation;
   const Driving& psi_plus;  // by cell and d
   const CellField<double>& lower_bound;
-  // Of that at a fixed psi: where the energy is not convex in d, Newton's steps are shortened and descend still.
+  // Least curvature over that at a fixed psi. Where the energy is not convex in d, Newton's steps are shortened and
+  // descend still.
   static constexpr double least_curvature = 0.2;
 
   bool is_free(Index c) const { return equation.is_damageable(c); }

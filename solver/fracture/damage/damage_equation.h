@@ -26,7 +26,7 @@ class DamageEquation {
   /// Solves for d [-] from its present value, given psi_plus [J/m^3] and the lower bound.
   ScalarSolution solve(const CellField<double>& psi_plus, const CellField<double>& lower,
                        const ScalarTolerance& tolerance, CellField<double>& d);
-  /// The same where psi_plus depends on d.
+  /// Solves for d where psi_plus depends on d.
   ScalarSolution solve(const DrivingLaw& psi_plus, const CellField<double>& lower, const ScalarTolerance& tolerance,
                        CellField<double>& d);
 
@@ -37,7 +37,7 @@ class DamageEquation {
   /// Discrete surface energy [J], with the deferred flux of the last solution; renewed_: with that of d.
   double fracture_energy(const CellField<double>& d) const;
   double renewed_fracture_energy(const CellField<double>& d);
-  /// The same per cell volume; half of a face's energy belongs to each of its cells [J/m^3].
+  /// Discrete surface energy per cell volume; half of a face's energy belongs to each of its cells [J/m^3].
   CellField<double> fracture_energy_density(const CellField<double>& d) const;
   /// int ell^2 |grad d|^2 over int d^2, weighted by Gc/(c0 ell): 1 about a crack of AT2, 0 where d is uniform.
   double unevenness(const CellField<double>& d) const;
@@ -56,12 +56,12 @@ class DamageEquation {
   double imbalance(Index cell, const CellField<double>& d, double psi_plus) const;
   double diagonal(Index cell, double d, double psi_plus) const;
   const SymmetricCoupling& coupling() const { return flux_.coupling(); }
-  /// By which damage the stiffness is degraded.
+  /// Damage by which the stiffness is degraded.
   const StiffnessDamage& stiffness_damage() const { return stiffness_damage_; }
   /// Derivatives of the stiffness factors by the means of d, at d [-].
   CellField<double> stiffness_slopes(const CellField<double>& d) const;
-  /// Of the energy of degraded stiffness by the means of d, at the d with which the last solution began, and the
-  /// diagonal that stood for it [J]; zero where each cell's own d degrades it.
+  /// Second derivative of the energy of degraded stiffness by the means of d, at the d with which the last solution
+  /// began, and the diagonal that stood for it [J]; zero where each cell's own d degrades it.
   double mean_curvature(Index cell) const { return drive_.curvature.size() > 0 ? drive_.curvature[cell] : 0.0; }
   double mean_diagonal(Index cell) const { return drive_.diagonal.size() > 0 ? drive_.diagonal[cell] : 0.0; }
   bool is_damageable(Index cell) const { return damageable_[cell] != 0; }

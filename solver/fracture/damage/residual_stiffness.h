@@ -1,7 +1,7 @@
 #pragma once
-// What the residual stiffness k of broken cells carries. At a prescribed load the elastic energy E of the body changes
-// by dE/dk = int (1 - g) psi_plus dV (all else is stationary), so that R = k dE/dk is the part of it, and R/E the part
-// of the force, that is there only because k is not zero.
+// Share of the load that the residual stiffness k of broken cells carries. At a prescribed load the elastic energy E of
+// the body changes by dE/dk = int (1 - g) psi_plus dV (all else is stationary), so that R = k dE/dk is the part of it,
+// and R/E the part of the force, that is there only because k is not zero.
 
 #include <string>
 

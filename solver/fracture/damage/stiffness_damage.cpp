@@ -46,7 +46,7 @@ double thickness(const Tensor& covariance, const Vector& plane_normal) {
   const Tensor C = within * covariance * within;
   const double mean = C.trace() / n;
   const Tensor uneven = C - mean * within;
-  // Of a hexahedron `longest` times as long as wide, or as wide and thick.
+  // Variances along the edges of a hexahedron `longest` times as long as wide, or as wide and thick.
   const double least = 1.0, most = longest * longest, middle = (most + (n - 1.0) * least) / n;
   const double allowed =
       ((most - middle) * (most - middle) + (n - 1.0) * (least - middle) * (least - middle)) / (middle * middle);

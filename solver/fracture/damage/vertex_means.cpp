@@ -46,7 +46,7 @@ std::vector<double> weights_of(const std::vector<Vector>& r, const Normals& acro
   return weights;
 }
 
-// What of a second moment is left of the sum with its mirror image.
+// Second moment without its parts between surface and normals, which cancel with the mirror image.
 Tensor mirrored(const Tensor& moment, const Normals& across) {
   Tensor along = Tensor::Identity();
   for (std::size_t i = 0; i < across.n; ++i) along -= across.direction[i] * across.direction[i].transpose();

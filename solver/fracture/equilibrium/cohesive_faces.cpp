@@ -25,7 +25,7 @@ constexpr double rigid_stiffness = 1e3;  // over that of the cells beside the fa
 // w x v = across(n, v) dn, where n turns by dn = w x n.
 Tensor across(const Vector& n, const Vector& v) { return n.dot(v) * Tensor::Identity() - n * v.transpose(); }
 
-// Of c/|c|, by c.
+// Derivative of c/|c| by c.
 Tensor by_length(const Vector& c) {
   const Vector n = c.normalized();
   return (Tensor::Identity() - n * n.transpose()) / c.norm();

@@ -34,7 +34,7 @@ class CohesiveFaces {
 
   bool any() const { return !faces_.empty(); }
   bool has_rate_laws() const;
-  /// Of the branches of each face while it is whole [N]; empty without branches.
+  /// Forces of the branches of each face while it is whole [N]; empty without branches.
   std::vector<Vector> branch_forces(const std::vector<InterfaceHistory>& histories) const;
   /// At the beginning of a load step, which takes `duration` [s].
   void start_step(double duration) { duration_ = duration; }
@@ -52,22 +52,23 @@ class CohesiveFaces {
                  const std::vector<InterfaceHistory>& before, std::vector<InterfaceHistory>& after) const;
   /// Energy dissipated by decohesion and friction from one state to the other [J].
   double dissipated(const std::vector<InterfaceHistory>& from, const std::vector<InterfaceHistory>& to) const;
-  /// Likewise by the rate of opening and by branches [J].
+  /// Energy dissipated by the rate of opening and by branches from one state to the other [J].
   double viscous_dissipation(const std::vector<InterfaceHistory>& from, const std::vector<InterfaceHistory>& to) const;
-  /// What each face dissipates from one state to the other [J], of decohesion this share.
+  /// Heat that each face makes from one state to the other [J]; of decohesion only this share of the energy.
   std::vector<double> heat(const std::vector<InterfaceHistory>& from, const std::vector<InterfaceHistory>& to,
                            double debonding_share) const;
-  /// Of each face, whether it has debonded and its sides do not touch.
+  /// Whether each face has debonded and its sides do not touch.
   std::vector<char> parted(const MomentumOperator& balance, const std::vector<Vector>& u,
                            const std::vector<InterfaceHistory>& histories) const;
-  /// Of each surface, where nine tenths of the toughness, that of the mode in which the face is loaded, or more are
-  /// dissipated [m^2].
+  /// Debonded area of each surface [m^2], where nine tenths of the toughness or more are dissipated: that of the mode
+  /// in which the face is loaded.
   std::vector<double> debonded_areas(const MomentumOperator& balance, const std::vector<Vector>& u,
                                      const std::vector<InterfaceHistory>& histories) const;
   /// Energy dissipated from one state to that of the displacements u [J].
   double dissipated_at(const MomentumOperator& balance, const std::vector<Vector>& u,
                        const std::vector<InterfaceHistory>& from) const;
-  /// How it grows as the displacements u change by `change`, to first order and without friction [J].
+  /// Growth of the dissipated energy as the displacements u change by `change`, to first order and without friction
+  /// [J].
   double dissipation_growth(const MomentumOperator& balance, const std::vector<Vector>& u,
                             const std::vector<InterfaceHistory>& from, const std::vector<Vector>& change) const;
   std::vector<OutputInterface> output(const MomentumOperator& balance, const FractureState& state) const;

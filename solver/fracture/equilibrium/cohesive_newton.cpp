@@ -181,7 +181,8 @@ struct PathFollower {
     return std::clamp(line.load + due / growth, (1.0 - furthest) * line.load, most);
   }
 
-  /// Where nothing dissipates yet: the greatest load, or a smaller one that does not dissipate more than it may.
+  /// First load, where nothing dissipates yet: the greatest one, or a smaller one that does not dissipate more than it
+  /// may.
   double first_load(const SolutionLine& line, double most) const {
     double load = most;
     for (int i = 0; i < 40 && excess(line.at(load)) > 0.0; ++i) load = 0.5 * (load + line.load);

@@ -11,15 +11,15 @@ namespace {
 
 // A larger change of damage by one iteration of the alternation is a jump under way.
 constexpr double jump = 0.03;
-// Of the change before: while it falls below, the alternation converges by itself.
+// Change over the change before: while it falls below, the alternation converges by itself.
 constexpr double quick = 0.2;
-// Of the linear system.
+// Reductions of the residual of the linear system.
 constexpr double reduction = 0.05, damage_reduction = 0.1;
 constexpr Index most_iterations = 60, most_damage_iterations = 50;
-// Of the energy, relative: what equilibria that are solved to 1e-4 leave uncertain.
+// Rise of the energy, relative, that equilibria which are solved to 1e-4 leave uncertain.
 constexpr double bearable_rise = 1e-6;
 constexpr double shrinkage = 0.25, growth = 2.0, least_radius = 0.05, most_radius = 1.0;
-// Of the change by an iteration of the alternation: a shorter step is not worth while.
+// Least length of a step over the change by an iteration of the alternation: a shorter one is not worth while.
 constexpr double least_gain = 2.0;
 constexpr int most_trials = 3, most_wait = 16;
 

@@ -62,7 +62,7 @@ CellField<double> Relaxation::accelerated(const CellField<double>& d, const Cell
   return result;
 }
 
-// Of the step from the relaxed damage before to this.
+// Momentum along the step from the relaxed damage before to this.
 double Relaxation::momentum(const CellField<double>& relaxed) {
   const double along =
       parallel_sum(relaxed.size(), [&](Index c) { return increment_[c] * (relaxed[c] - relaxed_[c]); });

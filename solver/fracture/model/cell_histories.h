@@ -1,5 +1,5 @@
 #pragma once
-// What the materials of the cells remember: for each cell with a history the displacement gradient that it has reached,
+// Memory of the materials of the cells. Each cell with a history has the displacement gradient that it has reached,
 // then the numbers of its law (physics/materials/material.h) and of its gaps (relaxing_gaps.h).
 
 #include "mesh/fields.h"

@@ -1,5 +1,5 @@
 #pragma once
-// What drives the damage at fixed displacements where the energy is not linear in the stiffness factor g.
+// Driving energy of the damage at fixed displacements where the energy is not linear in the stiffness factor g.
 
 #include "mesh/fields.h"
 

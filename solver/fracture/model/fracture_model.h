@@ -23,7 +23,7 @@
 
 namespace pfdm {
 
-/// Of x [m] and the load parameter t.
+/// Value at x [m] and the load parameter t.
 template <class Value>
 using LoadField = std::function<Value(const Vector& x, double t)>;
 
@@ -47,7 +47,7 @@ struct RegionModel {
   /// `elasticity` is it.
   std::shared_ptr<const MandelMatrix> stiffness{};
 
-  /// Of the surface energy [J/m^2]: a strength model pays part of Gc otherwise.
+  /// Toughness of the surface energy [J/m^2]: a strength model pays part of Gc otherwise.
   double surface_toughness() const { return strength.is_chosen() ? strength.delta() * Gc : Gc; }
 };
 
@@ -61,7 +61,7 @@ enum class Irreversibility {
 /// The damage that degrades the stiffness of a cell: its own, or of hexahedra the mean about it (stiffness_damage.h).
 enum class StiffnessBy { cell, mean };
 
-/// What acts within the body; each may be empty: nothing. From the first step on: at the beginning there is none of it.
+/// Loads within the body from the first step on; each may be empty: nothing. At the beginning there is none of it.
 struct BodyLoads {
   LoadField<Vector> gravity{};      ///< acceleration [m/s^2], which acts on the density of the regions
   LoadField<Vector> force{};        ///< per reference volume, in all regions [N/m^3]
@@ -73,8 +73,8 @@ struct CohesiveSurface {
   std::string name;
   InterfaceLaw law;
   std::vector<Index> faces;
-  /// Of each face 1, or -1 where its normal leads to the first side of the interface, from which separations and
-  /// tractions are told; empty: the normal always leaves it.
+  /// Sign of each face: 1, or -1 where its normal leads to the first side of the interface, from which separations and
+  /// tractions are told. Empty: the normal always leaves it.
   std::vector<double> sign{};
   /// One per face. A stiffness of zero, of a law with a straight rise: initially rigid (cohesive_faces.h).
   std::vector<InterfaceStrength> at{};
@@ -143,7 +143,8 @@ struct LoadingSettings {
   /// Increments are chosen so that the damage of no cell grows by more than this within a step. Steps of the finest
   /// increment or less are not limited.
   double damage_growth = std::numeric_limits<double>::infinity();
-  /// Likewise, so that no step's cracks release more of the energy, elastic at the step's load and fracture; relative.
+  /// Largest energy that a step's cracks release, over the elastic energy at its load plus the surface energy;
+  /// increments are chosen so.
   double energy_release = std::numeric_limits<double>::infinity();
   double finest_increment = 1e-3;  ///< of t
   /// Dissipation control: surface energy that a step may dissipate [J], in proportion less while the increment is below

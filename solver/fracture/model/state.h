@@ -31,7 +31,7 @@ struct FractureState {
   HeatState heat{};  ///< without heat empty
 };
 
-/// Of a body that heat warms.
+/// Report on a body that heat warms.
 struct HeatReport {
   HeatFigures figures{};
   HeatBalance account{};
@@ -56,7 +56,7 @@ struct StepReport {
   std::vector<std::string> remarks;  ///< increments that were cut, a residual stiffness that distorts
 };
 
-/// What the histories of the materials show, one of both fields; zero in the cells of other materials.
+/// Output of the histories of the materials, one of both fields; zero in the cells of other materials.
 struct OutputHistory {
   std::string name;
   std::string_view unit;

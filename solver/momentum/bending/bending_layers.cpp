@@ -49,7 +49,7 @@ class LayerLines {
   }
   const std::array<Index, 2>& faces(Index cell, int axis) const { return pairs_[cell][axis].face; }
   const LayerLine& line(Index cell, int axis) const { return lines_[cell][axis]; }
-  /// Of the cells of one zone in the line, twice that where one of its ends is a plane of symmetry [m].
+  /// Length of the cells of one zone in the line, twice that where one of its ends is a plane of symmetry [m].
   double zone_length(Index cell, int axis) const {
     double sum = length(cell, axis);
     std::array<Index, 2> ends = faces(cell, axis);
@@ -91,7 +91,7 @@ class LayerLines {
     return end;
   }
 
-  // Those within the plane of a plane mesh first, the other one left out.
+  // Pairs of opposite faces, those within the plane of a plane mesh first; the pair across it is left out.
   std::array<OppositeFaces, 3> pairs_of(Index cell) const {
     std::array<OppositeFaces, 3> pairs;
     std::size_t n = 0;

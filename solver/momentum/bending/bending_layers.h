@@ -1,6 +1,5 @@
 #pragma once
-// Where few layers of cells bend: lines of cells through opposite faces, and what gradients of one ring would make of
-// their bending.
+// Layers of few cells that bend: lines of cells through opposite faces, and the bending error of gradients of one ring.
 
 #include "mesh/mesh.h"
 #include "solver/momentum/body/unknowns.h"
@@ -22,9 +21,10 @@ struct BendingLayers {
   /// (3 - 2/n)/n^2 too little.
   double excess(double nu) const { return 1.5 * (1.0 - nu) * length * length / (thickness * thickness); }
   double lack() const { return n > 1.0 ? (3.0 - 2.0 / n) / (n * n) : 1.0; }
-  /// Likewise with gradients along lines of cells, in cells longer than the thickness: 0.05 (length/thickness - 1)^1.3
-  /// sqrt((1 - nu)/(1 - 2 nu)), nu at most 0.45, too much in cantilevers of an even number of cells, too little with an
-  /// odd one; and 0.7 (lone/thickness)^2 too little. Measured (test `bending`).
+  /// Bending stiffness over the exact one, less 1, with gradients along lines of cells. Cells longer than the
+  /// thickness: 0.05 (length/thickness - 1)^1.3 sqrt((1 - nu)/(1 - 2 nu)), nu at most 0.45, too much in cantilevers of
+  /// an even number of cells, too little with an odd one. One cell across: 0.7 (lone/thickness)^2 too little. Measured
+  /// (test `bending`).
   double excess_of_lines(double nu) const;
   double lack_of_lines() const { return 0.7 * lone * lone / (thickness * thickness); }
 };
@@ -62,13 +62,13 @@ std::vector<BendingCell> cells_of_layers(const Mesh& mesh, const Unknowns& unkno
 /// Cells of one elastic zone in the line of a cell through two opposite faces, split faces being ends.
 Index cells_through(const Mesh& mesh, const Unknowns& unknowns, Index cell, const std::array<Index, 2>& faces);
 
-/// Where layers that bend have gradients along lines of cells (layer_gradients.h); not about an axis.
+/// Meshes in which layers that bend have gradients along lines of cells (layer_gradients.h); none about an axis.
 enum class LinesIn { space, space_and_plane };
 
 /// Whether a cell has them: with at least two cells across, which may be of several zones that are bonded.
 bool has_lines(const Mesh& mesh, const Unknowns& unknowns, const BendingCell& in, LinesIn where);
 
-/// Those of cells_of_layers() that have lines and that gradients of one ring would bend with an error of more than half
+/// Cells of cells_of_layers() that have lines and that gradients of one ring would bend with an error of more than half
 /// a per cent.
 std::vector<BendingCell> cells_with_lines(const Mesh& mesh, const Unknowns& unknowns, LinesIn where);
 
@@ -85,8 +85,8 @@ struct BendingError {
   bool has_lines = false;  ///< by gradients along lines of cells, else of one ring
 };
 
-/// Where hexahedra in bodies at least three times as long as thick would bend with the largest error, of those that
-/// have lines in `lines`, if it is given, by these; empty without such bodies. None in boxes that follow a mean strain.
+/// Largest bending error of hexahedra in bodies at least three times as long as thick; empty without such bodies. Cells
+/// that have lines in `lines`, if it is given, count with the error of lines. None in boxes that follow a mean strain.
 std::optional<BendingError> largest_bending_error(const Mesh& mesh, const Unknowns& unknowns,
                                                   std::optional<LinesIn> lines = std::nullopt);
 

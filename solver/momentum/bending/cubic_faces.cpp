@@ -163,8 +163,7 @@ struct LocalFit {
   CubicFit fit;
 };
 
-// Of each sample, in the mean gradient over a face and in the displacement at
-// its centre.
+// Coefficients of each sample in the mean gradient over a face and in the displacement at its centre.
 template <class Coefficient>
 void add_coefficients(const Functionals& at_face, const CubicFit& fit, const Tensor& to_units,
                       std::vector<Coefficient>& coefficients) {

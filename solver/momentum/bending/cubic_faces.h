@@ -28,7 +28,7 @@ class CubicFaces {
   struct Side {
     Index cell = 0, face = 0;
   };
-  /// By how much the fit differs there from the cell's gradient G [-], and from G d, d = x_f - x_c [m].
+  /// Difference of the fit at a side from the cell's gradient G [-], and from G d, d = x_f - x_c [m].
   struct Change {
     Tensor gradient = Tensor::Zero();
     Vector rise = Vector::Zero();
@@ -41,7 +41,7 @@ class CubicFaces {
   bool any() const { return !cells_.empty(); }
   /// Whether a cell has a fit, whatever it counts.
   bool fits(Index cell) const { return any() && has_fit_[cell] != 0; }
-  /// How much each fit counts, by the stiffness factors g.
+  /// Weighs each fit by the stiffness factors g.
   void weigh(const CellField<double>& g);
   /// No fit counts: for laws by strain (splits without secant moduli), and for materials with a history, whose stress
   /// no gradient alone gives. At finite strain there are none.
@@ -56,7 +56,7 @@ class CubicFaces {
     std::size_t first_sample = 0, n_samples = 0, first_side = 0, n_sides = 0, first_coefficient = 0;
     double weight = 1.0;
   };
-  // Of a sample, in the mean gradient over a face [1/m], and in the displacement at its centre [-].
+  // Coefficients of a sample in the mean gradient over a face [1/m], and in the displacement at its centre [-].
   struct Coefficient {
     Vector gradient;
     double value;

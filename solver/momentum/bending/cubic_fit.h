@@ -51,13 +51,13 @@ std::array<double, 4> mean_weights(const std::array<double, 4>& places, std::siz
 /// A polynomial of least squares: its coefficients are linear in u_j - u_c, j being the samples.
 class CubicFit {
  public:
-  /// Of samples at these places, in units of the cell's edges, in the monomials that are wanted; weight |x|^-3 of each
-  /// difference.
+  /// Fit to samples at these places, in units of the cell's edges, in the monomials that are wanted; weight |x|^-3 of
+  /// each difference.
   CubicFit(const std::vector<Vector>& places, const cubic::Wanted& wanted);
 
   /// Whether the samples tell all linear fields.
   bool is_sound() const { return is_sound_; }
-  /// What a linear functional of the coefficients is, by the samples.
+  /// Coefficients of the samples in a linear functional of the polynomial's coefficients.
   Eigen::RowVectorXd operator()(const cubic::Row& functional) const { return functional * solution_; }
 
  private:

@@ -48,7 +48,8 @@ class LayerGradients {
   enum class OwnSides { surfaces, surfaces_ends_and_interfaces };
 
   LayerGradients() = default;
-  /// Of these cells, those of one after the other (bending_layers.h). Sides 2 i and 2 i + 1 are those of link number i.
+  /// Gradients of these cells, the entries of one cell one after the other (bending_layers.h). Sides 2 i and 2 i + 1
+  /// are those of link number i.
   LayerGradients(const Mesh& mesh, const Unknowns& unknowns, const std::vector<CubicFaces::Side>& sides,
                  const std::vector<momentum_faces::Link>& links, const std::vector<BendingCell>& cells,
                  OwnSides own = OwnSides::surfaces_ends_and_interfaces);
@@ -58,9 +59,9 @@ class LayerGradients {
   bool has_lines() const { return !cells_.empty(); }
   /// Whether a cell has lines, whatever they count.
   bool cover(Index cell) const { return any() && is_covered_[cell] != 0; }
-  /// How much the lines of a cell count; 0 without any.
+  /// Weight of the lines of a cell, 0 to 1; 0 without any.
   double counts(Index cell) const { return cover(cell) ? counting_[cell] : 0.0; }
-  /// How much the lines of each cell count, by the stiffness factors g.
+  /// Weighs the lines of each cell by the stiffness factors g.
   void weigh(const CellField<double>& g);
   /// None counts: for laws by strain, and for materials with a history.
   void leave_out() { counts_ = false; }
@@ -69,8 +70,8 @@ class LayerGradients {
   /// Turns the gradients of one ring of the displacements u into those along the lines, and finds by what the gradient
   /// at a side, by its number, differs from that of the cell; sides that are no surfaces are left alone.
   void correct(const std::vector<Vector>& u, CellField<Tensor>& gradients, std::vector<Tensor>& changes) const;
-  /// What a field of the cells, as their gradient, varies by along one of a cell's lines: the root of the mean square
-  /// of that over the cell.
+  /// Variation of a field of the cells, as their gradient, along one of a cell's lines: the root of its mean square
+  /// over the cell.
   template <class Value>
   Value spread(Index line, const CellField<Value>& of_cells) const {
     const Line& on = lines_[line];
@@ -82,8 +83,8 @@ class LayerGradients {
   void each_cell(const See& see) const;
   /// The sides, by their numbers, whose gradients differ from those of their cells.
   std::vector<std::size_t> surface_sides() const;
-  /// By what a field of the cells, as their eigenstrains, differs at these sides from that of the cell where it is
-  /// linear along the line: calls see(side, cell, the next cell inwards, the part of the difference of both).
+  /// Extrapolates a field of the cells, as their eigenstrains, to these sides where it is linear along the line: calls
+  /// see(side, cell, the next cell inwards, the part of the difference of both that the field at the side differs by).
   template <class See>
   void extrapolate(const See& see) const;
   /// The weights of the components of the jump at a link.

@@ -1,4 +1,4 @@
-// How the lines of cells of layer_gradients.h are found.
+// Construction of the lines of cells of layer_gradients.h.
 
 #include "solver/momentum/bending/layer_gradients.h"
 
@@ -223,7 +223,7 @@ class LayerGradients::Maker {
     add_side(cell, face, are_alike || next < 0 ? other : next, 1.0, half_slopes(cell, face), Tensor::Identity());
   }
 
-  // Of the slope towards a face and the next one inwards; this is half-way to a node, but at it if a component is free.
+  // Slopes towards a face and inwards. The inward one is half-way to a node, but at the node if a component is free.
   HalfSlopes half_slopes(Index cell, Index face) const {
     const Index opposite = opposite_face(mesh_, cell, face), next = walk_.beyond(cell, opposite).cell;
     const Index inwards = next >= 0 ? next : unknowns_.node_beside(mesh_, cell, opposite);

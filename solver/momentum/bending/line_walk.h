@@ -1,5 +1,5 @@
 #pragma once
-// How lines of cells through opposite faces run through a body, and what its faces hold.
+// Lines of cells through opposite faces: their way through a body, and the components that its faces hold.
 
 #include "mesh/mesh.h"
 #include "solver/momentum/bending/bending_layers.h"

@@ -9,7 +9,7 @@
 
 namespace pfdm {
 
-/// Where a slope of a line is, from the middle of the cell and over the cell's length. At the end of a line some
+/// Place of a slope of a line, from the middle of the cell and over the cell's length. At the end of a line some
 /// components may be held: their slope is half-way to the face, that of the free ones, whose traction is known, at it.
 struct LinePlace {
   double at = 0.0, at_held = 0.0;
@@ -17,7 +17,7 @@ struct LinePlace {
 };
 
 struct LineWeights {
-  /// By what the weights of some components differ.
+  /// Difference of the weights of some components from those of all.
   struct Change {
     Tensor part;
     std::array<double, 4> change;

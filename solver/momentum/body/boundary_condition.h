@@ -1,5 +1,5 @@
 #pragma once
-// What is prescribed on a patch.
+// Boundary conditions on patches.
 
 #include "physics/tensor.h"
 

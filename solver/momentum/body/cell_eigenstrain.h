@@ -10,7 +10,7 @@ namespace pfdm {
 
 class CellEigenstrain {
  public:
-  /// Those of the body at the load parameter t, or none. Returns whether they have changed.
+  /// Takes the eigenstrains of the body at the load parameter t, or none. Returns whether they have changed.
   bool set(const Mesh& mesh, const VolumeLoads& loads, std::optional<double> t);
 
   bool any() const { return of_cell_.size() > 0; }

@@ -1,5 +1,5 @@
 #pragma once
-// What the momentum balance says of cells for given displacements.
+// Mechanical state of the cells for given displacements.
 
 #include "mesh/fields.h"
 #include "physics/elasticity/mandel.h"
@@ -8,7 +8,7 @@
 
 namespace pfdm {
 
-/// What the strain of a cell at one of its faces differs from that of the cell by, as the tractions of bodies with a
+/// Difference of the strain of a cell at one of its faces from that of the cell, as the tractions of bodies with a
 /// history have it: (u_f - u_c - G d)/h, borne by (sym(gap n^T) : C) n.
 struct FaceGap {
   Vector strain = Vector::Zero();  ///< [-]
@@ -34,15 +34,15 @@ struct CellMechanics {
   /// At finite strain, beside it: half the work of the moment of a cell's tractions about its centre, at its rotation
   /// beyond that of the whole body [J]; zero where it is not counted; empty: nowhere.
   CellField<double> moment_work{};
-  /// Of a part of the stiffness: its share in `energy`, per volume [J/m^3],
+  /// Energy of a part of the stiffness, its share in `energy` per volume [J/m^3],
   ///
   ///   (1/2V) sum A (u_f - u_c).(part : eps_f) n,  eps_f = sym(G + (u_f - u_c - G d) n^T / h),
   ///
   /// eps_f being the strain from which a face's traction is computed; it varies between the faces of a cell. Never of
   /// the other sign than the energy of `strain`. Empty if none is given, zero where the part has no shear modulus.
   CellField<double> part_energy{};
-  /// By least squares, as used in the tractions of the faces; with the volume change that belongs to the pressure in
-  /// cells that have one [-]; empty unless some material is linearised.
+  /// Strain by least squares, as used in the tractions of the faces, with the volume change that belongs to the
+  /// pressure in cells that have one [-]; empty unless some material is linearised.
   CellField<Tensor> reconstructed_strain{};
   std::vector<FaceGap> gaps{};  ///< as Mesh::cell_faces; empty without relaxing materials
   /// At finite strain, of nearly incompressible bodies: J - 1 by the volume of the moved cell, of those with a pressure

@@ -46,7 +46,7 @@ class CellPressure {
   void weigh(const CellField<double>& g);
   /// Pressures that are zero, for read().
   PressureField field() const;
-  /// Those among the unknowns u, and their gradients.
+  /// Reads the pressures among the unknowns u, and finds their gradients.
   void read(const std::vector<Vector>& u, PressureField& pressures) const;
 
   /// lambda - lambda_s [Pa]; zero in cells that have none.

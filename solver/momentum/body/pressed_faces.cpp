@@ -74,7 +74,7 @@ std::vector<Vector> PressedFaces::moves(const std::vector<Vector>& u, const Cell
   return moves;
 }
 
-// Of 1/2 sum x_i x x_(i+1).
+// Change of the pressure's force by that of the area 1/2 sum x_i x x_(i+1).
 Vector PressedFaces::turn(const Face& at, const std::vector<Vector>& moves) const {
   Vector change = Vector::Zero();
   for (std::size_t k = 0; k < at.points.size(); ++k) {

@@ -29,7 +29,7 @@ struct Part {
   Form form = Form::Zero();        // quadratic form of what is prescribed of (a, b)
 };
 
-// Of each boundary face the one that moves as it does, or -1.
+// Partner of each boundary face that moves as it does, or -1.
 std::vector<Index> periodic_partners(const Mesh& mesh, const Unknowns& unknowns) {
   std::vector<Index> partner(mesh.n_faces(), -1);
   const auto face_of = [&](Index node) { return unknowns.face_of_node[node - unknowns.n_cells]; };
@@ -175,7 +175,7 @@ std::string free_directions(const Tensor& form, double negligible) {
   return eigen.eigenvalues()[0] <= negligible ? direction(eigen.eigenvectors().col(0)) : "";
 }
 
-// How the part can move; empty if it cannot.
+// Motion that is left to the part; empty if there is none.
 std::string free_motion(const Part& part) {
   const double negligible = singular * std::max(part.form.trace(), 1.0);
   const Tensor translation = part.form.topLeftCorner<3, 3>();

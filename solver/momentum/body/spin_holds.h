@@ -25,7 +25,7 @@ struct SpinHold {
   Vector along = Vector::Zero();    ///< in this one
 };
 
-/// Of all cells but tetrahedra, whose gradients reach further.
+/// Holds of all cells but tetrahedra, whose gradients reach further.
 std::vector<SpinHold> spin_holds(const Mesh& mesh, const Unknowns& unknowns);
 
 }  // namespace pfdm

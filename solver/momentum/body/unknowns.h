@@ -36,12 +36,12 @@ struct FreeStrain {
   double modulus = 0.0;                    ///< estimate of the box's, for the preconditioner [Pa]
 };
 
-/// How the sides of a box follow a displacement of the whole body.
+/// Motion of the sides of a box that follow a displacement of the whole body.
 struct BoxMotion {
   std::vector<HeldFace> held{};           ///< none twice, and no image of a periodic face
   std::vector<PeriodicFaces> periodic{};  ///< no face twice
-  /// Of the whole body at x [m] and the load parameter t, affine in x: for the held and the periodic faces [m]. Empty:
-  /// zero. The free strains add to it.
+  /// Displacement of the whole body at x [m] and the load parameter t, affine in x: for the held and the periodic faces
+  /// [m]. Empty: zero. The free strains add to it.
   std::function<Vector(const Vector& x, double t)> displacement{};
   std::vector<FreeStrain> free_strains{};
   Vector size = Vector::Zero();    ///< of the box [m]
@@ -50,17 +50,17 @@ struct BoxMotion {
   bool any() const { return !held.empty(); }
 };
 
-/// What acts within the cells of a mesh at the load parameter t; each may be empty: nothing. Of an eigenstrain eps* the
-/// stress is C (eps - eps*).
+/// Loads within the cells of a mesh at the load parameter t; each may be empty: nothing. The stress under an
+/// eigenstrain eps* is C (eps - eps*).
 struct VolumeLoads {
   std::function<Vector(const Mesh& mesh, Index cell, double t)> force;        ///< per volume, of the reference [N/m^3]
   std::function<Mandel(const Mesh& mesh, Index cell, double t)> eigenstrain;  ///< [-]
 };
 
-/// What the momentum balance is about.
+/// Body of the momentum balance.
 struct ElasticBody {
   std::vector<IsotropicElasticity> elasticity;  ///< of each region of the mesh, undamaged
-  /// Of each region: the first one with the same law. Faces between different laws carry unknowns.
+  /// First region with the same law, for each region. Faces between different laws carry unknowns.
   std::vector<Index> zone;
   std::vector<BoundaryCondition> boundary;  ///< patches that are not named are free
   std::vector<Index> split_faces{};         ///< interior ones, none twice
@@ -68,7 +68,7 @@ struct ElasticBody {
   VolumeLoads loads{};
   /// Nearly incompressible cells have a pressure: not where the stress is not that of isotropic moduli.
   bool has_pressure = true;
-  /// By which elasticity a cell is nearly incompressible, undamaged: its own, or that to which it relaxes; none: the
+  /// Undamaged elasticity by which a cell is nearly incompressible: its own, or that to which it relaxes. None: the
   /// cell has no pressure whatever it is. Empty: by the elasticity of its region.
   std::function<std::optional<IsotropicElasticity>(const Mesh& mesh, Index cell)> volume_elasticity{};
 };

@@ -24,7 +24,7 @@ class BondedSides {
   static constexpr double stiffer = 2.0;  // a over that of other sides
 
   BondedSides() = default;
-  /// Those of cells with a pressure, where it may be so.
+  /// Bonded sides of cells with a pressure, where `may_be` allows it.
   BondedSides(const Mesh& mesh, const Unknowns& unknowns, const std::vector<momentum_faces::Side>& sides,
               const std::function<bool(Index cell)>& may_be);
 
@@ -58,7 +58,7 @@ class BondedSides {
   std::vector<Index> node_;        // likewise
   std::vector<std::size_t> offsets_{0};
   std::vector<Sample> samples_;
-  // Of axisymmetric meshes, whose hoop strain is that on the surface too.
+  // Terms of axisymmetric meshes, whose hoop strain is that on the surface too.
   std::vector<double> radius_;  // of each of them [m]; else empty
   Vector radial_ = Vector::Zero(), across_ = Vector::Zero();
   Tensor hoop_ = Tensor::Zero();

@@ -1,5 +1,5 @@
 #pragma once
-// What acts on a body from outside at a load parameter t: prescribed displacements, tractions, pressures, body forces,
+// Loads on a body from outside at a load parameter t: prescribed displacements, tractions, pressures, body forces,
 // elastic foundations, and the motion of a box by a mean strain.
 
 #include "solver/linear/block_matrix.h"

@@ -1,6 +1,6 @@
 #pragma once
-// How displacements vary within the cells: gradients of one ring (solver/scalar/gradient.h), faces of third order and
-// lines of cells where few layers bend, and the pressures of nearly incompressible cells.
+// Variation of displacements within the cells: gradients of one ring (solver/scalar/gradient.h), faces of third order
+// and lines of cells where few layers bend, and the pressures of nearly incompressible cells.
 
 #include "solver/momentum/bending/cubic_faces.h"
 #include "solver/momentum/bending/layer_gradients.h"

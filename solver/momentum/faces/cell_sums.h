@@ -9,7 +9,7 @@
 
 namespace pfdm {
 
-/// How the faces of cells move by the displacements u of a sweep.
+/// Moves of the faces of cells by the displacements u of a sweep.
 struct FaceMoves {
   const FaceSkeleton& skeleton;
   const Sweep& sweep;
@@ -24,7 +24,7 @@ struct FaceMoves {
   Vector moved_with(Index cell, Index face) const;
 };
 
-/// Of a cell, before the closure of its faces.
+/// Sums over the faces of a cell, before the closure of its faces.
 struct CellSums {
   Tensor gradient = Tensor::Zero();  ///< sum (u_f - u_c) (x) S [m^3]
   Tensor moment = Tensor::Zero();    ///< sum A t (x) (x_f - x_c) [J]

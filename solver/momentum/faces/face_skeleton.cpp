@@ -20,7 +20,7 @@ CellField<Tensor> closures(const Mesh& mesh) {
   return closure;
 }
 
-// Of axisymmetric meshes; empty of others.
+// Sector areas of axisymmetric meshes; empty for others.
 CellField<Vector> sector_areas(const Mesh& mesh, const Unknowns& unknowns) {
   if (!unknowns.is_axisymmetric()) return {};
   CellField<Vector> area(mesh.n_cells(), Vector::Zero());

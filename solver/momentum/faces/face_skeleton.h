@@ -1,6 +1,6 @@
 #pragma once
-// What of the momentum balance the mesh and the placement of the unknowns alone decide: its faces, which forces act on
-// which cell, and how they add up to the balance of every node. Constant after construction.
+// Skeleton of the momentum balance, which the mesh and the placement of the unknowns alone decide: its faces, the
+// forces that act on each cell, and their sums in the balance of every node. Constant after construction.
 //
 // Forces stand in one order: first those of the links, then those of the sides. "Turns" number what each cell sees of
 // its faces: 2 i and 2 i + 1 are P's and N's side of link i, the sides follow.
@@ -64,9 +64,9 @@ struct FaceSkeleton {
   }
   std::size_t number_of(Index face_node) const { return as_size(face_node - unknowns.n_cells); }
 
-  /// By turn.
+  /// Sides of all cells, in the order of the turns.
   std::vector<CubicFaces::Side> sides_by_turn() const;
-  /// By force.
+  /// Places of all faces, in the order of the forces.
   std::vector<MovedFaces::Place> places_by_force() const;
 
   /// out: minus the sum of the forces on each cell, the free part of those on each face node, and what they do along

@@ -30,8 +30,8 @@ FaceField<Vector> FaceTractions::face_displacements(const std::vector<Vector>& u
 }
 
 std::vector<double> FaceTractions::pressure_compliance() const {
-  // Of the displacements' response to a pressure, times lambda_s + 2 mu: between 1, of smooth pressures in the
-  // continuum, and what the damping of rough ones adds. Measured: 3 to 5 take the fewest iterations, 1 half as many
+  // Response of the displacements to a pressure, times lambda_s + 2 mu: between 1, of smooth pressures in the
+  // continuum, and that with the damping of rough ones. Measured: 3 to 5 take the fewest iterations, 1 half as many
   // again.
   constexpr double answer = 4.0;
   const std::vector<Index>& cells = skeleton_.unknowns.pressure_cells;

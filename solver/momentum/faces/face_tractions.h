@@ -13,7 +13,7 @@
 
 namespace pfdm {
 
-/// What one sweep over the faces finds for given displacements. The kinds of tractions add what they need.
+/// Result of one sweep over the faces for given displacements. The kinds of tractions add to it.
 struct Sweep : FaceForces {
   explicit Sweep(const FaceSkeleton& skeleton)
       : FaceForces{.force = std::vector<Vector>(skeleton.n_forces()),
@@ -103,7 +103,7 @@ class FaceTractions {
  protected:
   virtual std::unique_ptr<Sweep> new_sweep() const = 0;
   virtual Vector link_displacement(std::size_t link, const std::vector<Vector>& u, const Sweep& sweep) const = 0;
-  /// By the cell's pressure [1/Pa], and modulus lambda + 2 mu of the cell without it [Pa].
+  /// Derivative of a row of a pressure by that pressure [1/Pa], and modulus lambda + 2 mu of the cell without it [Pa].
   struct PressureRow {
     double slope = 0.0, modulus = 1.0;
   };

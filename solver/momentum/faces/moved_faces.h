@@ -56,11 +56,11 @@ class MovedFaces {
   void weigh(const CellField<double>& g);
   /// Displacement of every point [m].
   void move(const Field& by, std::vector<Vector>& moves) const;
-  /// Where the faces are linearised: their points, and their own displacements.
+  /// Takes the points of the faces where they are linearised, and their own displacements.
   void place(const std::vector<Vector>& moves);
   void follow(const std::vector<Vector>& u_face);
 
-  /// Of place i, outwards from its cell and over the undeformed area: the area vector, and its change by moves. Zero of
+  /// Area vector of place i, outwards from its cell and over the undeformed area, and its change by moves. Zero for
   /// cells without a pressure.
   const Vector& area(std::size_t i) const { return loops_[i].area; }
   /// In place of the polygon's; after place().
@@ -91,7 +91,7 @@ class MovedFaces {
     std::size_t first_rise = 0, end_rise = 0;
     double sum = 0.0;  // of the weights
   };
-  // By what a displacement that varies along a gliding surface differs at a corner from that at the face of a sample:
+  // Difference of a displacement that varies along a gliding surface, at a corner, from that at the face of a sample:
   // this part of its difference at another face.
   struct Rise {
     std::size_t sample;

@@ -87,7 +87,7 @@ class MovedFacesBuilder {
   }
 
  private:
-  // Of a corner on faces with nodes: each with the directions in which its node is held.
+  // Sample of a corner on faces with nodes, with the directions in which the node is held.
   struct OnNode {
     MovedFaces::Sample sample;
     Tensor held;
@@ -187,7 +187,7 @@ class MovedFacesBuilder {
     }
   }
 
-  // What is prescribed on the surface there, where its displacement is a function of the place.
+  // Condition on the surface of a face whose prescribed displacement is a function of the place; null if there is none.
   const PatchCondition* varied_on(Index face) const {
     for (const PatchCondition& on : unknowns_.conditions) {
       const Patch& patch = mesh_.patches[on.patch];
@@ -197,7 +197,7 @@ class MovedFacesBuilder {
     return nullptr;
   }
 
-  // Those that are held in the same directions stand together.
+  // Stores the samples so that those held in the same directions stand together.
   void store_samples(std::size_t k) {
     MovedFaces::Corner& corner = faces_.corners_[k];
     corner.begin = faces_.samples_.size();

@@ -8,7 +8,7 @@
 
 namespace pfdm {
 
-/// Of the faces of one patch.
+/// Slopes along the faces of one patch.
 class SurfaceSlopes {
  public:
   SurfaceSlopes(const Mesh& mesh, const Patch& patch);

@@ -11,11 +11,11 @@ namespace pfdm {
 struct FiniteLaw {
   Tensor stress = Tensor::Zero();               ///< P at the gradient H, without that of a pressure [Pa]
   GradientTangent A = GradientTangent::Zero();  ///< dP/dH there [Pa]
-  /// Of the faces (finite_tractions.h).
+  /// Moduli of the faces (finite_tractions.h).
   IsotropicElasticity face;
   double swelling = 1.0;  ///< factor of mu/J^2 in their stiffness: 0 of a law that is linear in F
-  /// Of cells with a pressure: J by the pressure q, with the fractions of its modulus that are left where q > 0 and
-  /// where q < 0.
+  /// Volumetric law of cells with a pressure, else null: J by the pressure q, with the fractions of its modulus that
+  /// are left where q > 0 and where q < 0.
   const HyperelasticMaterial* pressure = nullptr;
   double open = 1.0, closed = 1.0;
   double free_change = 0.0;  ///< of their volume, J* - 1 of the free deformation F*
@@ -28,7 +28,7 @@ struct FiniteLaw {
   }
 };
 
-/// Of a cell, at its displacement gradient H.
+/// Law of a cell at its displacement gradient H.
 using FiniteLawAt = std::function<FiniteLaw(Index cell, const Tensor& H)>;
 
 }  // namespace pfdm

@@ -1,4 +1,4 @@
-// How the tractions of finite strain are linearised (finite_tractions.h).
+// Linearisation of the tractions of finite strain (finite_tractions.h).
 
 #include "solver/momentum/faces/acoustic_tensor.h"
 #include "solver/momentum/finite_strain/finite_tractions.h"

@@ -56,9 +56,9 @@ Tensor FiniteTractions::elastic_spread(Index cell, Index line, const CellField<T
   return whole - (Tensor::Identity() + gradients[cell]) * free.inverse() * of_free;
 }
 
-// Where lines of cells count, the mean gradient is theirs, from which the tractions are computed. The gradient varies
-// along the lines, by h^2/12 times the square of its slope, and so much more energy is in the cell, in place of what
-// tractions, face displacements and moments have. What F* varies by is none of it.
+// The mean gradient is that along lines of cells where these count: the tractions are computed from it. The gradient
+// varies along the lines, by h^2/12 times the square of its slope, and the cell has the energy of that in place of what
+// tractions, face displacements and moments have. The variation of F* is none of it.
 void FiniteTractions::find_within_layers(const CellField<Tensor>& gradients, CellMechanics& result) const {
   const LayerGradients& layers = cells_.layers();
   if (!layers.any()) return;
@@ -76,7 +76,7 @@ void FiniteTractions::find_within_layers(const CellField<Tensor>& gradients, Cel
   });
 }
 
-// Of all cells in bodies with eigenstrains, else of those with a pressure.
+// Counts the work of moments in all cells of bodies with eigenstrains, else in those with a pressure.
 void FiniteTractions::add_work_of_moments(CellMechanics& result) const {
   const Unknowns& unknowns = skeleton_.unknowns;
   const CellField<Tensor>& stress = pressure_.any() ? result.moderate_stress : result.stress;

@@ -9,7 +9,7 @@
 
 namespace pfdm {
 
-/// What a sweep finds of moved faces; all but the gradients empty without pressures.
+/// Moved faces as a sweep finds them; all but the gradients empty without pressures.
 struct FinitePressureSweep {
   PressureField pressure;
   std::vector<Tensor> on_sides;      ///< gradients on sides that have their own (FiniteStates::own)
@@ -30,16 +30,16 @@ class FinitePressure {
   void read(const std::vector<Vector>& u, const CellField<Tensor>& gradients, FinitePressureSweep& s) const;
   void find_area_changes(const CellField<Tensor>& gradients, FinitePressureSweep& s) const;
 
-  /// By the stiffness factors g of the cells; before read().
+  /// Weighs the points by the stiffness factors g of the cells; before read().
   void weigh(const CellField<double>& g) { moved_faces_.weigh(g); }
   /// Areas and pressures about which it is linearised, once the states are.
   void linearise(const FinitePressureSweep& s);
   /// Then the equations, about the displacements of s, with which the faces have moved by u_face (by force).
   void linearise_volumes(const std::vector<Vector>& u_face, FinitePressureSweep& s);
 
-  /// Of a force: the area vector on which the pressure acts, over the undeformed area.
+  /// Area vector of a force on which the pressure acts, over the undeformed area.
   const Vector& area(std::size_t force) const { return moved_faces_.area(force); }
-  /// Of a face as a cell sees it, outwards [m^2].
+  /// Area vector of a face as a cell sees it, outwards [m^2].
   Vector moved_area(const FaceSkeleton::SignedForce& on) const;
   double section(Index cell) const { return moved_faces_.section(cell); }
   double section_change(Index cell, const FinitePressureSweep& s) const {

@@ -69,7 +69,7 @@ FiniteStates::Push FiniteStates::push_of(const FiniteLaw& law, double J) {
   return {law.face.lambda + mu * swelling(J), mu * swelling_slope(J)};
 }
 
-// What polyhedra keep of it.
+// Stiffness m of polyhedra, capped to this share of lambda + 2 mu.
 FiniteStates::Push FiniteStates::capped(double share, const FiniteLaw& law, const Push& push) {
   const double mu = law.swelling * law.face.mu;
   return {share * (push.stiffness + mu) - mu, share * push.slope};

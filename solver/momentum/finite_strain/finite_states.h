@@ -23,7 +23,7 @@ class FiniteStates {
     double stiffness = 0.0, slope = 0.0;  ///< [Pa]
     Push operator/(double h) const { return {stiffness / h, slope / h}; }
   };
-  /// What a gradient H changes a cell by, or a side that has one of its own.
+  /// Change of a cell by a gradient H, or of a side that has a gradient of its own.
   struct Change {
     Tensor stress = Tensor::Zero();    ///< A : H [Pa]
     Tensor cofactor = Tensor::Zero();  ///< of cof F [-]
@@ -38,7 +38,8 @@ class FiniteStates {
   /// For use while the skeleton exists.
   FiniteStates(const FaceSkeleton& skeleton, const LayerGradients& layers);
 
-  /// Of these eigenstrains, empty: none, each surface of layers that bend has that of the line of cells beneath it.
+  /// Extrapolates these eigenstrains, empty: none, so that each surface of layers that bend has that of the line of
+  /// cells beneath it.
   void extrapolate(const LayerGradients& layers, const CellField<Mandel>& eigenstrains);
   /// About these gradients of the cells, and on the sides that have their own.
   void linearise(const FiniteLawAt& law, const CellField<Tensor>& gradients, const std::vector<Tensor>& on_sides);

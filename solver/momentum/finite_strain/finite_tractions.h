@@ -35,7 +35,7 @@
 
 namespace pfdm {
 
-/// What a sweep of these tractions also finds.
+/// Result of a sweep of these tractions.
 struct FiniteSweep : Sweep, FinitePressureSweep {
   using Sweep::Sweep;
   std::vector<Tensor> layers;  // by turn; empty without lines
@@ -74,15 +74,16 @@ class FiniteTractions final : public FaceTractions {
  private:
   using Change = FiniteStates::Change;
   using Push = FiniteStates::Push;
-  // What the traction on one side of a face changes by with its c = cof F N, turn dc, and the constant part of the
-  // linearised traction.
+  // Change of the traction on one side of a face with its c = cof F N, turn dc, and the constant part of the linearised
+  // traction.
   struct FaceTurn {
     Tensor turn;            // [Pa]
     Vector swell;           // by J [Pa]
     Vector initial;         // [Pa]
     double pressure = 0.0;  // on it, which acts on the moved area [Pa]
   };
-  // Of a link where the jump has a stiffness other than that of the tractions: what that adds, likewise.
+  // Change of the traction of a link where the jump has a stiffness other than that of the tractions, and its constant
+  // part.
   struct JumpTurn {
     Tensor P, N;              // [Pa]
     Vector swell_P, swell_N;  // [Pa]
@@ -98,16 +99,16 @@ class FiniteTractions final : public FaceTractions {
   void find_changes(FiniteSweep& s) const;
   Vector linear_traction(Index cell, const Vector& n, const Vector& d, std::size_t turn, const FiniteSweep& s) const;
   Vector turned_jump(std::size_t link, const FiniteSweep& s) const;
-  // What the cell's displacement rises by to the centre of side number `turn` [m].
+  // Rise of the cell's displacement to the centre of side number `turn` [m].
   Vector rise(Index cell, const Vector& d, std::size_t turn, const FiniteSweep& s) const {
     const Index k = states_.bonded_at(turn);
     return (k < 0 ? s.gradients[cell] : s.on_sides[k]) * d;
   }
 
-  // How much farther a free surface with a gradient of its own lies than the faces between cells, whose tractions are
-  // those of the cells' mean gradients [m].
+  // Distance [m] by which a free surface with a gradient of its own lies farther out than the faces between cells,
+  // whose tractions are those of the cells' mean gradients.
   Vector lag(std::size_t side, const Tensor& stress_on_side, const Tensor& stress_of_cell) const;
-  // Of the faces with these pressures, in the order of the forces, by a sweep [m].
+  // Moves of the faces with these pressures, in the order of the forces, by a sweep [m].
   std::vector<Vector> moves_of_faces(const FiniteSweep& s) const;
 
   // finite_linearisation.cpp

@@ -14,18 +14,18 @@ namespace pfdm {
 
 class TurnedWeights {
  public:
-  /// Of n_links links; for use while the layers exist.
+  /// Weights of n_links links; for use while the layers exist.
   TurnedWeights(const LayerGradients& layers, std::size_t n_links);
 
   bool any() const { return !turns_.empty(); }
   bool turns(std::size_t link) const { return any() && number_[link] >= 0; }
 
-  /// Of a link that turns(): about the deformation gradients F of both cells, the stiffness c of the jump [Pa/m], and
-  /// the jump [m].
+  /// Linearises a link that turns(), about the deformation gradients F of both cells, the stiffness c of the jump
+  /// [Pa/m], and the jump [m].
   void linearise(std::size_t link, const Tensor& F_P, const Tensor& F_N, const Tensor& c, const Vector& jump);
   /// W J: J itself at links that have no weights.
   Vector weigh(std::size_t link, const Vector& jump) const { return turns(link) ? of(link).weight * jump : jump; }
-  /// What changes of F of both cells change the traction by, c dW J [Pa], and its constant part.
+  /// Change of the traction by changes of F of both cells, c dW J [Pa], and its constant part.
   Vector change(std::size_t link, const Tensor& H_P, const Tensor& H_N) const;
   const Vector& initial(std::size_t link) const { return of(link).initial; }
 

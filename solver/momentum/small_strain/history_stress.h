@@ -17,7 +17,7 @@ struct GapStress {
 };
 
 struct HistoryStress {
-  /// Of every cell; replaces that of its moduli. Empty: there is no history.
+  /// Linearised stress of every cell, in place of that of its moduli. Empty: there is no history.
   CellField<LinearStress> stress{};
   /// The undamaged moduli that a change of strain meets in the step, and `relaxes` of the cells whose gaps relax; both
   /// empty without any.

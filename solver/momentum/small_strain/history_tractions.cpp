@@ -5,7 +5,7 @@
 namespace pfdm {
 namespace {
 
-// What the gradient of a bonded side is beyond that of the cell is a gap, too.
+// A gap includes the gradient of a bonded side beyond that of the cell.
 struct StressByHistory {
   const CellField<LinearStress>& stress;
   const CellField<IsotropicElasticity>& moduli;
@@ -36,7 +36,7 @@ void HistoryTractions::set(const CellField<IsotropicElasticity>& moduli, const C
   set_coefficients();
 }
 
-// Of the stress K tr eps + p_0 the pressures carry all but K_s tr eps.
+// Gives to the pressures the stress K tr eps + p_0 less K_s tr eps.
 void HistoryTractions::give_to_pressures() {
   if (!cells_.pressure().any()) return;
   pressure_ = CellField<double>(stress_.size(), 0.0);

@@ -46,8 +46,8 @@ class HistoryTractions final : public IsotropicTractions {
   template <class Visit>
   void visit_sides(Index cell, const Visit& visit) const;
 
-  // Of a relaxing cell: the stiffness of its gaps along the normal of a face, over the shear and the bulk modulus. Zero
-  // of others.
+  // Stiffness of the gaps of a relaxing cell along the normal of a face, over the shear and the bulk modulus. Zero for
+  // other cells.
   struct GapStiffness {
     double by_shear = 0.0, by_bulk = 0.0;
   };

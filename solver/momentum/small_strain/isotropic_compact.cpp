@@ -71,8 +71,8 @@ void IsotropicTractions::balance_pressures(const std::vector<Vector>&, Sweep& sw
   });
 }
 
-// What eigenstrains and histories add to these rows: V tr eps* and V p_0/K, less the fluxes of what their tractions
-// move the faces by.
+// Takes away the terms of eigenstrains and histories in these rows: V tr eps* and V p_0/K, less the fluxes of the
+// faces' moves by their tractions.
 void IsotropicTractions::take_away_constant_volumes(std::vector<Vector>& load) const {
   const std::vector<Index>& cells = skeleton_.unknowns.pressure_cells;
   if (!has_initial_stress() || cells.empty()) return;

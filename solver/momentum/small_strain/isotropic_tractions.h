@@ -31,13 +31,13 @@ struct IsotropicStress {
     const IsotropicElasticity& c = moduli[cell];
     return (c.lambda * G.trace()) * n + c.mu * (G * n + G.transpose() * n);
   }
-  /// Where the gradient at a side is not that of the cell.
+  /// Traction where the gradient at a side is not that of the cell [Pa].
   Vector at_side(Index cell, const Tensor&, const Tensor& at_side, const Vector& n) const {
     return (*this)(cell, at_side, n);
   }
 };
 
-/// What a sweep of these tractions also finds.
+/// Result of a sweep of these tractions.
 struct IsotropicSweep : Sweep {
   using Sweep::Sweep;
   std::vector<CubicFaces::Change> cubic;  // by turn; empty without fits
@@ -71,8 +71,8 @@ class IsotropicTractions : public SmallTractions {
 
   /// The gradient [-] from which the traction on a side of a face is computed.
   Tensor gradient_at(Index cell, std::size_t turn, const Sweep& sweep) const;
-  /// What `move`, the displacement of a side's face less that of the cell, is beyond the cell's own rise [m]; without
-  /// that part of the jump which has no weight.
+  /// Gap of a side: its displacement less that of the cell, `move`, beyond the cell's own rise [m]; without the part of
+  /// the jump that has no weight.
   Vector gap(Index cell, const Vector& d, std::size_t turn, const Vector& move, const std::vector<Vector>& u,
              const Sweep& sweep) const;
   /// b (a + b)^-1 v of a link.
@@ -110,7 +110,7 @@ class IsotropicTractions : public SmallTractions {
     if (cells_.pressure().any()) stress += s.pressure.at(cell, d) * n;
     return stress;
   }
-  // Likewise, with the stress of these cells.
+  // Traction on side number `turn` with the stress of these cells [Pa].
   virtual Vector own_traction(Index cell, const Vector& n, const Vector& d, std::size_t turn,
                               const IsotropicSweep& s) const;
   // `sound`: undamaged moduli, empty: those of the zones.
@@ -141,7 +141,8 @@ class IsotropicTractions : public SmallTractions {
   CellField<StrainAcross> strain_across_;  // of plane stress, else empty
 
  private:
-  // Of a link: the weight of sigma_P in the traction, that of sigma_N completes it to 1; c, and c as the jump has it.
+  // Values of a link: the weight of sigma_P in the traction (that of sigma_N completes it to 1); c, and c as the jump
+  // has it.
   struct LinkValues {
     double weight_n = 0.0, weight_t = 0.0;
     double c_n = 0.0, c_t = 0.0;        // [Pa/m]
@@ -162,7 +163,7 @@ class IsotropicTractions : public SmallTractions {
     const Index k = bonded_at(turn);
     return k < 0 ? s.gradients[cell] : s.bonded[k];
   }
-  // What the cell's displacement rises by to the centre of side number `turn` [m].
+  // Rise of the cell's displacement to the centre of side number `turn` [m].
   Vector rise(Index cell, const Vector& d, std::size_t turn, const IsotropicSweep& s) const {
     Vector linear = mean_gradient_at(cell, turn, s) * d;
     if (cells_.cubic().any()) linear += s.cubic[turn].rise;
@@ -176,8 +177,8 @@ class IsotropicTractions : public SmallTractions {
   }
   double link_flux(std::size_t link, const Vector& u_P, const Vector& jump, const Vector& stress_jump,
                    const IsotropicSweep& s) const;
-  // By how much farther a surface with a gradient of its own lies than the faces between cells, whose tractions are
-  // those of the cells' mean gradients: a change of strain there moves it by so much [m].
+  // Distance [m] by which a change of strain moves a surface with a gradient of its own farther out than the faces
+  // between cells, whose tractions are those of the cells' mean gradients.
   double lag(std::size_t side, const Tensor& change) const;
   double side_flux(std::size_t side, const Vector& u_f, const IsotropicSweep& s) const;
 

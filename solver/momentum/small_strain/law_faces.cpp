@@ -1,4 +1,4 @@
-// How the two sides of each face agree (law_tractions.h).
+// Agreement of the two sides of each face (law_tractions.h).
 
 #include "physics/elasticity/plane_stress.h"
 #include "solver/momentum/small_strain/law_tractions.h"
@@ -111,7 +111,7 @@ struct LawTractions::LinkBalance {
     return t_P - t_N;
   }
   Tensor softness() const { return (P.acoustic / h_P + N.acoustic / h_N).inverse(); }
-  // Of the present tangents.
+  // Displacement of the face by the present tangents [m].
   Vector linear_answer() const {
     const Vector apart =
         N.rows * to_mandel(symmetric_part(G_N)) - P.rows * to_mandel(symmetric_part(G_P)) + N.initial - P.initial;

@@ -1,5 +1,5 @@
 #pragma once
-// What tractions at small strain have in common: eigenstrains, and the strains, stresses and energies of the cells.
+// Common part of the tractions at small strain: eigenstrains, and the strains, stresses and energies of the cells.
 //
 // Eigenstrains eps*: each side of a face has the initial traction -n.C eps*, so that tractions agree across a face also
 // where eps* jumps. Axisymmetric meshes (a sector one cell wide): the gradient also has the hoop strain u_r / r, and
@@ -42,9 +42,9 @@ class SmallTractions : public FaceTractions {
   /// Energy per volume [J/m^3] of a part of the cell's stiffness (CellMechanics::part_energy).
   virtual double energy_of_part(Index cell, const IsotropicElasticity& part, const Tensor& strain,
                                 const FaceMoves& moves) const = 0;
-  /// By what the eigenstrain on side number `turn` differs from that of its cell [-].
+  /// Difference of the eigenstrain on side number `turn` from that of its cell [-].
   virtual Tensor eigenstrain_change(std::size_t) const { return Tensor::Zero(); }
-  /// What materials with a history ask for besides.
+  /// Adds the results that materials with a history need.
   virtual void add_histories(const FaceMoves&, CellMechanics&) const {}
 
   /// The energy of the mean strain and of what the strains of the faces differ from it; without eigenstrains, of which
@@ -84,7 +84,7 @@ double SmallTractions::energy_over_faces(Index cell, const Part& part, const Ten
     varying += 0.5 * elastic_move.dot(change * area);
   }
   double mean = 0.5 * contract(part.of_cell(elastic), elastic);
-  // What the strain along lines of cells, which is the cell's, does across the plane; within it the faces do all.
+  // Strain along lines of cells, which is the cell's, acts across the plane; within it the faces do all.
   if (const double counts = cells_.layers().counts(cell); counts > 0.0 && !is_plane_stress()) {
     const Tensor beyond = counts * (symmetric_part(moves.sweep.gradients[cell]) - strain);
     mean +=

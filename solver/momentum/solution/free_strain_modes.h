@@ -1,5 +1,5 @@
 #pragma once
-// How a box moves by each of its free strains (unknowns.h) while its other unknowns are in equilibrium: with these
+// Motions of a box by each of its free strains (unknowns.h) while its other unknowns are in equilibrium. With these
 // motions beside the preconditioner of the other unknowns,
 //
 //   z = M^-1 r + Phi (Phi^T A Phi)^-1 Phi^T r,

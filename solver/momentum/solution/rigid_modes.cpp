@@ -130,7 +130,8 @@ class RigidModes {
     groups_.push_back(std::move(group));
   }
 
-  // What interfaces cut off from the rest of the body. The preconditioner finds these motions too, but not well.
+  // Adds the motions of parts that interfaces cut off from the rest of the body. The preconditioner finds these motions
+  // too, but not well.
   void add_parts() {
     if (unknowns_.split_faces.empty()) return;
     Group group{.first_mode = count_of(modes_), .n_motions = 6, .share = 0.5};
@@ -193,7 +194,7 @@ class RigidModes {
     return of_modes;
   }
 
-  // What the balance does about these modes together, on all modes.
+  // Forces of the balance under these modes together, projected on all modes.
   Eigen::VectorXd answer(const MomentumOperator& balance, Index first, Index stride, Index end) const {
     std::vector<Vector> u(unknowns_.n_unknowns(), Vector::Zero()), image(u.size());
     for (Index k = first; k < end; k += stride)

@@ -40,11 +40,11 @@ class StalePreconditioner {
   /// `measure` is of the stiffness of each cell, any, but always the same. Of isotropic cells: if the last solution did
   /// not converge, their moduli count too (cracks that have closed or opened change them at the same g).
   bool renew(const CellField<double>& measure, const CellField<IsotropicElasticity>& moduli);
-  /// Of cells of general stiffness.
+  /// Compares the stiffness of cells of general stiffness.
   bool renew(const CellField<double>& measure);
   /// At finite strain: also if cells that are not broken have turned or stretched by a good part.
   bool renew(const CellField<double>& measure, const FiniteTractions& tractions);
-  /// Of the split faces.
+  /// Compares the stiffness of the split faces.
   bool renew_springs(std::vector<double> measure);
 
   void was_built() { state_ = State::serving; }
