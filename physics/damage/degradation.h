@@ -46,7 +46,7 @@ Degradation rational_degradation(const RationalCoefficients& c);
 std::span<const DegradationLaw> degradations();
 /// Throws InputError naming those there are.
 const DegradationLaw& degradation_law(std::string_view name);
-/// With the default values of its parameters. Throws InputError naming those there are.
+/// Degradation with the default values of its parameters. Throws InputError naming those there are.
 Degradation degradation(std::string_view name);
 
 }  // namespace pfdm

@@ -97,7 +97,7 @@ std::string splits_with_secant();
 std::string splits_for_anisotropy();
 /// Throws InputError naming those there are.
 const SplitLaw& split_law(std::string_view name);
-/// With the default values of its parameters. Throws InputError naming those there are, or if it has a parameter
+/// Split with the default values of its parameters. Throws InputError naming those there are, or if it has a parameter
 /// without a default.
 EnergySplit energy_split(std::string_view name);
 

@@ -24,7 +24,7 @@ double asymmetry(const MandelMatrix& C);
 
 /// C_ijkl in the order of component_names [Pa], without Mandel's factors: sigma = C (eps_xx ... 2 eps_xy).
 MandelMatrix voigt_stiffness(const MandelMatrix& C);
-/// Its inverse [1/Pa], for engineering shear strains.
+/// Compliance in the order of component_names [1/Pa], for engineering shear strains.
 MandelMatrix voigt_compliance(const MandelMatrix& C);
 
 struct Phase {

@@ -40,7 +40,7 @@ inline Tensor cofactor(const Tensor& F) {
   return cof;
 }
 
-/// Its derivative at F in the direction G.
+/// Change of cof F at F in the direction G.
 inline Tensor cofactor_change(const Tensor& F, const Tensor& G) {
   Tensor change;
   change.col(0) = F.col(1).cross(G.col(2)) + G.col(1).cross(F.col(2));

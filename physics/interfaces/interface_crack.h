@@ -30,7 +30,7 @@ struct NearField {
   double s_xx = 0.0, s_yy = 0.0, s_xy = 0.0;  ///< [Pa]
 };
 
-/// At a place ahead of the tip and beside it [m], K = K1 + i K2 [Pa m^1/2].
+/// Field at a place ahead of the tip and beside it [m], K = K1 + i K2 [Pa m^1/2].
 NearField near_field(const InterfaceCrack& crack, double along, double across, std::complex<double> K);
 
 }  // namespace pfdm

@@ -46,9 +46,9 @@ namespace pfdm {
 /// Strength and stiffness at one place of an interface.
 struct InterfaceStrength {
   double strength = 0.0;         ///< in opening [Pa]
-  double toughness = 0.0;        ///< likewise [J/m^2]
+  double toughness = 0.0;        ///< in opening [J/m^2]
   double shear_strength = 0.0;   ///< of rules whose law depends on the mode [Pa]
-  double shear_toughness = 0.0;  ///< likewise [J/m^2]
+  double shear_toughness = 0.0;  ///< of rules whose law depends on the mode [J/m^2]
   double stiffness = 0.0;        ///< of the straight rise [Pa/m]; of laws that have one
 };
 
@@ -61,10 +61,10 @@ struct ModeMixture {
 struct MixedMode {
   std::string_view name;
   std::string_view description;
-  /// At the mode mixity B; null: that of opening at any. `exponent`, eta, is at least 1.
+  /// Strength and toughness at the mode mixity B; null: those of opening at any B. `exponent`, eta, is at least 1.
   ModeMixture (*at)(const InterfaceStrength& strength, double B, double exponent);
   bool keeps_stiffness = false;  ///< whether shear_ratio leaves the stiffness as it is, k = 1
-  bool is_potential = false;     ///< that of Xu and Needleman
+  bool is_potential = false;     ///< the potential of Xu and Needleman
 
   /// Whether it mixes the modes of this law.
   bool suits(const TractionSeparationLaw& law) const;
@@ -107,8 +107,8 @@ struct InterfaceLaw {
   InterfaceRate rate{};
   std::vector<InterfaceBranch> branches{};  ///< up to most_interface_branches
 
-  /// At the separation [m], of the side that the unit normal n enters from the other one, after `before` and a step of
-  /// this duration [s]. 0: no time passes, r and q stay what they were.
+  /// Response at the separation [m] of the side that the unit normal n enters from the other one, after `before` and a
+  /// step of this duration [s]. 0: no time passes, r and q stay what they were.
   InterfaceResponse respond(const InterfaceStrength& at, const Vector& n, const Vector& separation,
                             const InterfaceHistory& before, double duration = 0.0) const;
   /// Stiffness of the unbroken interface in opening [Pa/m].

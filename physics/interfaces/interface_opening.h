@@ -1,5 +1,5 @@
 #pragma once
-// A separation in the terms of an interface law, what it pulls and what it loses: for interface_law.cpp and
+// A separation in the terms of an interface law, its traction and its losses: for interface_law.cpp and
 // interface_losses.cpp.
 
 #include "physics/interfaces/interface_law.h"
@@ -40,7 +40,7 @@ struct InterfaceLaw::Opening {
     lambda = std::sqrt(measured.dot(separation));
     B = lambda > 0.0 ? std::min(1.0, rho * shear.squaredNorm() / (lambda * lambda)) : 0.0;
   }
-  /// As far as `history` tells. Turned with the body: only the length of the slip counts.
+  /// Opening as far as `history` tells. Turned with the body: only the length of the slip counts.
   static Opening of(const InterfaceLaw& law, const Vector& n, const InterfaceHistory& history) {
     return Opening(law, n, history.opening * n + history.shear.norm() * n.unitOrthogonal());
   }

@@ -39,7 +39,7 @@ struct InterfaceRate {
   LawParameters p{};
 
   bool any() const { return law != nullptr; }
-  /// At a rate of the separation [m/s]; nothing where it does not grow.
+  /// Overstress at a rate of the separation [m/s]; nothing where it does not grow.
   Overstress at(double rate) const { return rate > 0.0 ? law->overstress(p, rate) : Overstress{}; }
 };
 

@@ -15,7 +15,7 @@ struct OgdenTerm {
 /// Force per area of the unloaded section at the stretch l > 0, uniaxial stress [Pa].
 double nominal_stress(std::span<const OgdenTerm> terms, double stretch);
 
-/// At no stretch: sum mu_i alpha_i / 2 [Pa]; Young's modulus is three times that.
+/// Shear modulus without stretch: sum mu_i alpha_i / 2 [Pa]; Young's modulus is three times that.
 double shear_modulus(std::span<const OgdenTerm> terms);
 
 }  // namespace pfdm

@@ -95,17 +95,18 @@ class Staggered {
                         const IterationWatch& watch);
   Equilibrium solve_momentum(const FractureState& start, FractureState& state,
                              const MomentumSolver::Tolerance& tolerance, Index most_newton_steps);
-  /// At a load that is no more than that of the path, and lower where the cohesive faces would dissipate more.
+  /// Finds the equilibrium at a load that is no more than that of the path, and lower where the cohesive faces would
+  /// dissipate more.
   Equilibrium follow_faces(const FractureState& start, const FacesPath& path,
                            const MomentumSolver::Tolerance& tolerance, FractureState& state);
   struct Energies {
     double stored = 0.0;      // [J]
     double interfaces = 0.0;  // the part of it in cohesive faces [J]
-    double torn = 0.0;        // what these have dissipated since the start [J]
+    double torn = 0.0;        // dissipated by these since the start [J]
     double residual = 0.0;    // the part of it that the residual stiffness has [J]
     double unsettled = 0.0;   // error of it by stiffnesses that have not settled [J]
   };
-  /// With `settles` the stiffness may follow the strain.
+  /// Updates the driving energy from the equilibrium. With `settles` the stiffness may follow the strain.
   Energies update_driving_energy(const FractureState& start, FractureState& state, bool settles);
   double potential_of_loads(const FractureState& state) const;  // elastic foundations included [J]
   double drive(const FractureState& start, FractureState& state, double scale);
@@ -120,7 +121,7 @@ class Staggered {
   FreeStrained free_strained(const FractureState& state);
   /// Energy that eigenstrains supply from one state to the other [J].
   double eigenstrain_work(const FreeStrained& from, const FreeStrained& to) const;
-  /// psi_plus_ and finite_.
+  /// Sets psi_plus_ and finite_.
   void find_driving_energy(const CellMechanics& mechanics, const FractureState& state);
   bool solve_damage(const FractureState& start, const FractureState& state, CellField<double>& d);
   struct PathLimit {
@@ -142,8 +143,8 @@ class Staggered {
   bool has_newton_;  // the response to which is smooth enough for it
   StageClock clock_;
   CellField<double> psi_plus_;        // [J/m^3] of the last equilibrium
-  CellField<FiniteEnergies> finite_;  // likewise; empty at small strain
-  StrengthDrive strength_;            // likewise
+  CellField<FiniteEnergies> finite_;  // of the last equilibrium; empty at small strain
+  StrengthDrive strength_;            // of the last equilibrium
 };
 
 }  // namespace pfdm

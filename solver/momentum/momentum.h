@@ -69,7 +69,7 @@ class MomentumOperator {
   /// Twice the energy that the eigenstrains of now would store in the undamaged body if nothing moved, at finite strain
   /// by its elasticity at small strain [J].
   double energy_if_held() const;
-  /// For bodies of flat cells that bend (CellReconstruction::relax_flat_cells); before set_moduli().
+  /// Prepares bodies of flat cells that bend (CellReconstruction::relax_flat_cells); before set_moduli().
   void relax_flat_cells();
 
   /// Null but at finite strain, and but with isotropic moduli.
@@ -77,7 +77,8 @@ class MomentumOperator {
   const IsotropicTractions* isotropic() const { return isotropic_; }
   /// Whether the law is linearised about displacements.
   bool is_linearised() const { return tractions_->is_linearised(); }
-  /// In some cells: cubic_faces.h, at finite strain in none; layer_gradients.h.
+  /// Whether some cells have faces or gradients of third order: cubic_faces.h, at finite strain none;
+  /// layer_gradients.h.
   bool is_of_third_order() const { return tractions_->has_third_order(); }
 
   /// The laws of the split faces, in their order.
@@ -138,7 +139,7 @@ class MomentumOperator {
   std::vector<Vector> boundary_forces(const std::vector<Vector>& u) const;  ///< per boundary face [N]
   /// Traction [Pa] on each interior face that carries a node, on its owner.
   std::vector<std::pair<Index, Vector>> interface_tractions(const std::vector<Vector>& u) const;
-  /// On every face along its normal [Pa]; zero on the faces of plane and axisymmetric patches.
+  /// Traction on every face along its normal [Pa]; zero on the faces of plane and axisymmetric patches.
   FaceField<Vector> tractions(const std::vector<Vector>& u) const;
   std::vector<Vector> patch_displacements(const std::vector<Vector>& u) const;  ///< per patch, area mean [m]
 
@@ -157,7 +158,7 @@ class MomentumOperator {
   FaceSprings springs_;
   SpinForces spins_;
   std::unique_ptr<FaceTractions> tractions_;
-  FiniteTractions* finite_ = nullptr;  // what the tractions are, if they are that
+  FiniteTractions* finite_ = nullptr;  // the tractions, if they are of this kind
   IsotropicTractions* isotropic_ = nullptr;
 };
 

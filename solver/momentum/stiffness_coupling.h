@@ -20,14 +20,14 @@ class StiffnessCoupling {
   /// pressures or in axisymmetric sectors.
   static bool covers(const Mesh& mesh, const Unknowns& unknowns);
 
-  /// At the displacement u; `part` is the stiffness that g multiplies, zero where nothing is. For use while `balance`
-  /// exists and keeps its moduli, which are isotropic.
+  /// Coupling at the displacement u; `part` is the stiffness that g multiplies, zero where nothing is. For use while
+  /// `balance` exists and keeps its moduli, which are isotropic.
   StiffnessCoupling(const MomentumOperator& balance, CellField<IsotropicElasticity> part, const std::vector<Vector>& u);
 
   /// The changes by du and dg: of A u [N], and of the energies V psi [J] of the cells' parts.
   void apply(const std::vector<Vector>& du, const CellField<double>& dg, std::vector<Vector>& force,
              CellField<double>& energy);
-  /// That of A u by dg alone.
+  /// Change of A u by dg alone [N].
   void apply(const CellField<double>& dg, std::vector<Vector>& force) const;
 
  private:

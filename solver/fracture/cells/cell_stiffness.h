@@ -18,8 +18,7 @@ class CellStiffness {
  public:
   CellStiffness(const Mesh& mesh, const FractureModel& model);
 
-  /// At the beginning of a load step, which takes `duration` [s]: clears the memory of how the strains moved in the
-  /// previous one.
+  /// Begins a load step, which takes `duration` [s]: clears the memory of how the strains moved in the previous one.
   void start_step(double duration);
   /// The damage that degrades stiffness where it is not the states' own (stiffness_damage.h), for the states that
   /// follow.
@@ -40,8 +39,7 @@ class CellStiffness {
   /// stiffness that is degraded, which `mechanics` has to have; where there is none, that of the strain; with a
   /// history, that of the state.
   double driving_energy(Index cell, const CellMechanics& mechanics, const FractureState& state) const;
-  /// At finite strain: what the cells' energies are made of, and psi_plus at any damage d of a cell, with its
-  /// derivative by d.
+  /// Parts of the cells' energies at finite strain, and psi_plus at any damage d of a cell, with its derivative by d.
   CellField<FiniteEnergies> finite_energies(const CellMechanics& mechanics, const FractureState& state) const;
   DrivingAt driving_energy(Index cell, const FiniteEnergies& at, double d) const;
   /// Whether alternate minimisation descends: the driving energy of every damageable cell is the derivative of the
@@ -71,7 +69,7 @@ class CellStiffness {
   Tensor undamaged_stress(Index cell, const CellMechanics& mechanics, const FractureState& state) const;
   const MaterialCells& materials() const { return materials_; }
   const FiniteCells& finite() const { return finite_; }
-  /// At finite strain: of the displacement, with the stretch across a plate in plane stress.
+  /// Displacement gradient at finite strain, with the stretch across a plate in plane stress.
   Tensor thinned_gradient(Index cell, const CellMechanics& mechanics, const FractureState& state) const;
   Tensor cauchy_stress(Index cell, const CellMechanics& mechanics, const FractureState& state,
                        const Vector& plane_normal) const;

@@ -35,8 +35,8 @@ struct FiniteEnergies {
   double moderate = 0.0, network = 0.0, pressure = 0.0;
   double compression = 0.0;      ///< W_c, of the moderate one, where compression does not drive the damage
   bool is_compressed = false;    ///< there, and J < 1
-  double faces = 0.0, of = 1.0;  ///< what the faces add, at the g with which the displacements were found
-  double moments = 0.0;          ///< likewise, of their moments where these do not drive the damage
+  double faces = 0.0, of = 1.0;  ///< energy of the faces, at the g with which the displacements were found
+  double moments = 0.0;          ///< of the moments of the faces, where these do not drive the damage
 };
 
 class FiniteCells {
@@ -45,8 +45,8 @@ class FiniteCells {
 
   bool any() const { return material_.size() > 0; }
   bool has_pressure(Index cell) const { return material_[cell]->pressure_modulus() > 0.0; }
-  /// At the displacement gradient H and the stiffness factor g. The faces are as stiff as `closure` says: 1 where J_e <
-  /// 1 and the split keeps the bulk modulus, 0 where J_e > 1.
+  /// Law at the displacement gradient H and the stiffness factor g. The faces are as stiff as `closure` says: 1 where
+  /// J_e < 1 and the split keeps the bulk modulus, 0 where J_e > 1.
   FiniteLaw law(Index cell, const Tensor& H, double g, double closure, const FreeDeformation& free = {}) const;
   /// The closure at the volume J_e, which changes over a range of J_e: the stiffness of the faces may not jump.
   double closure(Index cell, const CellMechanics& mechanics) const;
@@ -56,7 +56,7 @@ class FiniteCells {
   FiniteEnergies energies(Index cell, const CellMechanics& mechanics, double g) const;
   /// Energy that a cell stores [J].
   double stored_energy(Index cell, const FiniteEnergies& at, double g) const;
-  /// Its derivative by g, per volume, and that one's [J/m^3].
+  /// Derivative of the stored energy by g, per volume, and its own derivative by g [J/m^3].
   DrivingAt driving_energy(Index cell, const FiniteEnergies& at, double g) const;
 
   /// The mean gradient H with the stretch across a plate at which it has no stress across it; else H.
@@ -66,8 +66,9 @@ class FiniteCells {
   /// are.
   Tensor undamaged_biot_stress(Index cell, const CellMechanics& mechanics, double g) const;
 
-  /// The derivative of what a cell stores by F* at constant displacements, V dW/dF* [J], with its sign changed, by the
-  /// tractions as far as they are known: eigenstrains that grow by d eps* supply minus this times d eps*.
+  /// Derivative of the stored energy by F* at constant displacements, V dW/dF* [J], with its sign changed. It is
+  /// computed from the tractions as far as they are known: eigenstrains that grow by d eps* supply minus this times d
+  /// eps*.
   Tensor eigenstrain_moment(Index cell, const CellMechanics& mechanics, double g, const Vector& plane_normal) const;
 
   /// Cauchy stress [Pa] from the first Piola-Kirchhoff stress of the tractions, with that across a plane mesh.
@@ -101,7 +102,7 @@ class FiniteCells {
   const Mesh& mesh_;
   const FractureModel& model_;
   CellField<const HyperelasticMaterial*> material_;  // empty at small strain
-  CellField<const FiniteSplit*> split_;              // likewise
+  CellField<const FiniteSplit*> split_;              // empty at small strain
   Vector across_ = Vector::Zero();                   // normal of a plate in plane stress
   Vector plane_normal_ = Vector::Zero();             // of a plane mesh
 };

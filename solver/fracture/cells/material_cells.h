@@ -25,10 +25,10 @@ class MaterialCells {
   bool any() const { return any_; }
   bool has(Index cell) const { return any_ && material_[cell] != nullptr; }
 
-  /// At the beginning of a load step, which takes `duration` [s].
+  /// Begins a load step, which takes `duration` [s].
   void start_step(double duration);
-  /// Takes a cell from its history at the start of the step to what it is strained by now. Returns the error [J/m^3] of
-  /// its energy density with the previous linearised stress; NaN if the material's step cannot be solved.
+  /// Takes a cell from its history at the start of the step to its strain of now. Returns the error [J/m^3] of its
+  /// energy density with the previous linearised stress; NaN if the material's step cannot be solved.
   double advance(Index cell, const CellMechanics& mechanics, const CellHistories& from, CellHistories& to);
   /// The undamaged stress about the cell's state.
   LinearStress linearised(Index cell, const CellHistories& histories) const;

@@ -36,7 +36,7 @@ class CohesiveFaces {
   bool has_rate_laws() const;
   /// Forces of the branches of each face while it is whole [N]; empty without branches.
   std::vector<Vector> branch_forces(const std::vector<InterfaceHistory>& histories) const;
-  /// At the beginning of a load step, which takes `duration` [s].
+  /// Begins a load step, which takes `duration` [s].
   void start_step(double duration) { duration_ = duration; }
   std::vector<InterfaceHistory> virgin_histories() const { return std::vector<InterfaceHistory>(faces_.size()); }
 

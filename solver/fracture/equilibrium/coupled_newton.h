@@ -27,7 +27,8 @@ class CoupledNewton {
   /// Cholesky factors and a solution takes some ten iterations of FGMRES (tests/benchmark/README.md).
   static bool suits(const Mesh& mesh, const Unknowns& unknowns);
 
-  /// For one step of loading, with the solvers of the alternation; `part`: of the stiffness, that damage degrades.
+  /// Newton's method of one step of loading, with the solvers of the alternation; `part`: the part of the stiffness
+  /// that damage degrades.
   CoupledNewton(const Mesh& mesh, const FractureModel& model, CellField<IsotropicElasticity> part,
                 MomentumSolver& momentum, const DamageEquation& damage)
       : mesh_(mesh), model_(model), part_(std::move(part)), momentum_(momentum), damage_(damage) {}

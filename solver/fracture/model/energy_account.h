@@ -6,7 +6,7 @@
 
 namespace pfdm {
 
-/// At a step; external work and dissipated energies since the start. [J]
+/// Energies at a step; external work and dissipated energies since the start. [J]
 struct EnergyAccount {
   double elastic = 0.0;
   double fracture = 0.0;  ///< surface energy
@@ -30,7 +30,8 @@ struct EnergyEntry {
   std::string_view label;   ///< in reports
 };
 
-/// In the order of the columns: the first three stand together in force_displacement.csv, the others at its end.
+/// Table of the energies, in the order of the columns: the first three stand together in force_displacement.csv, the
+/// others at its end.
 inline constexpr EnergyEntry energy_entries[] = {
     {&EnergyAccount::elastic, EnergyEntry::Role::stored, "elastic_energy", "final_elastic_energy", "elastic energy"},
     {&EnergyAccount::fracture, EnergyEntry::Role::surface, "fracture_energy", "final_fracture_energy",

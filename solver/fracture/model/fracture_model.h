@@ -33,7 +33,7 @@ struct RegionModel {
   double ell = 0.0;           ///< regularisation length [m]
   bool damageable = true;     ///< false pins d = 0 in the region
   EnergySplit split{};        ///< if none is chosen, the model's
-  Degradation degradation{};  ///< likewise
+  Degradation degradation{};  ///< if none is chosen, the model's
   StrengthModel strength{};   ///< none is chosen: the energy alone drives damage
   /// The undamaged material, with the same elasticity; null: linear elastic.
   std::shared_ptr<const Material> material{};
@@ -42,7 +42,7 @@ struct RegionModel {
   Tensor expansion = Tensor::Zero();                       ///< thermal, symmetric [1/K]
   std::shared_ptr<const LoadField<Tensor>> eigenstrain{};  ///< given besides [-]; null: none
   double conductivity = 0.0;                               ///< of heat [W/(m K)]; where there is heat
-  double specific_heat = 0.0;                              ///< likewise, of the density [J/(kg K)]
+  double specific_heat = 0.0;                              ///< of the density [J/(kg K)]; where there is heat
   /// Elasticity that depends on the direction [Pa]; `elasticity` is then the closest isotropic one, an estimate. Null:
   /// `elasticity` is it.
   std::shared_ptr<const MandelMatrix> stiffness{};
@@ -97,8 +97,7 @@ struct FractureModel {
   BodyLoads loads{};
   std::vector<CohesiveSurface> interfaces{};  ///< no face in two of them
   std::optional<HeatModel> heat{};            ///< none: what is dissipated warms nothing
-  /// At load 0 the damage is nowhere below this, between 0 and 1 [-]: it has the profile of least surface energy.
-  /// Empty: none.
+  /// Least damage at load 0, between 0 and 1 [-]: the damage has the profile of least surface energy. Empty: none.
   CellField<double> initial_damage{};
 
   const RegionModel& in_cell(const Mesh& mesh, Index cell) const {

@@ -91,7 +91,7 @@ struct OutputFields {
   CellField<double> fracture_energy_density;
   std::vector<OutputHistory> history{};       ///< of materials that have one
   std::vector<OutputInterface> interfaces{};  ///< one per cohesive surface
-  /// On each face along its normal, sigma n [Pa]; zero on the front and back of a plate, which carry none.
+  /// Traction on each face along its normal, sigma n [Pa]; zero on the front and back of a plate, which carry none.
   FaceField<Vector> traction;
   Vector plane_stress_normal = Vector::Zero();  ///< of a plate in plane stress; else zero
 };

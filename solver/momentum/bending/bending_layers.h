@@ -52,7 +52,7 @@ struct BendingCell {
   Index cell = 0;
   std::array<Index, 2> across{-1, -1}, along{-1, -1};
   double thickness = 0.0;       ///< of all layers, of half models that of the whole body [m]
-  double zone_thickness = 0.0;  ///< likewise of those of the cell's own zone
+  double zone_thickness = 0.0;  ///< of the layers of the cell's own zone [m]
 };
 
 /// All cells of bodies at least three times as long as thick, whatever the error; a cell of a plate is listed for both

@@ -35,7 +35,7 @@ class CubicFaces {
   };
 
   CubicFaces() = default;
-  /// For the given sides, of those cells whose layers bend (bending_layers.h); none in space or about an axis.
+  /// Fits for the given sides of cells whose layers bend (bending_layers.h); none in space or about an axis.
   CubicFaces(const Mesh& mesh, const Unknowns& unknowns, const std::vector<Side>& sides);
 
   bool any() const { return !cells_.empty(); }

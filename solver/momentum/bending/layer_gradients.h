@@ -129,7 +129,7 @@ class LayerGradients {
   class Maker;
 
   double least_factor_ratio(const Cell& in, const CellField<double>& g) const;
-  static double part_of(double factor_ratio);  // how much counts where the least factor over the greatest is this
+  static double part_of(double factor_ratio);  // weight where the least factor over the greatest is this
 
   std::vector<Cell> cells_;
   std::vector<Line> lines_;

@@ -26,7 +26,7 @@ class LineWalk {
   /// The next cell from a face inwards; -1: none.
   Index cell_behind(Index cell, Index face) const { return beyond(cell, opposite_face(mesh_, cell, face)).cell; }
 
-  /// On the surface of the body: components whose traction is prescribed, in plane meshes of those within the plane.
+  /// Components on the surface of the body whose traction is prescribed, in plane meshes those within the plane.
   Tensor free_part(Index face) const {
     const Index node = unknowns_.node_of_face[face];
     if (mesh_.is_interior(face) || node < 0) return Tensor::Zero();

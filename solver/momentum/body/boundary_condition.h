@@ -22,7 +22,7 @@ struct BoundaryCondition {
     components,    ///< each Cartesian component is a displacement or a traction
     symmetry,      ///< no normal displacement, no tangential traction
     plane,         ///< front or back of a mesh one cell thick: plane strain, the cells carry no gradient across it
-    plane_stress,  ///< the same with no stress across it in place of no strain
+    plane_stress,  ///< front or back of a mesh one cell thick: no stress across it
     axisymmetric,  ///< front or back of a sector about the axis z, one cell wide: the cells stretch by u_r / r across
                    ///< it
     elastic_foundation,  ///< traction t = -(k_n u.n n + k_t (u - u.n n)) (Robin; Winkler foundation), n the normal of

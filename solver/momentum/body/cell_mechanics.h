@@ -20,19 +20,20 @@ struct FaceGap {
 /// Strain, stress and energy of the cells for a given displacement.
 struct CellMechanics {
   CellField<Tensor> strain;  ///< from the two-sided face displacements (Green-Gauss) [-]
-  /// The part of it that makes no stress; at finite strain F* - 1 of the free deformation [-]; empty: none.
+  /// Part of the strain that makes no stress; at finite strain F* - 1 of the free deformation [-]; empty: none.
   CellField<Mandel> eigenstrain{};
-  /// With eigenstrains at small strain: sum A t (x) (x_f - x_c), with the stress across a plane mesh, [J]; else empty.
+  /// Moment of the tractions where there are eigenstrains at small strain: sum A t (x) (x_f - x_c), with the stress
+  /// across a plane mesh [J]; else empty.
   CellField<Mandel> traction_moment{};
   CellField<Tensor> gradient;  ///< of the displacement, du_i/dx_j, likewise [-]; empty if not wanted
   CellField<Tensor> stress;    ///< traction moment (1/V) sum A t (x) (x_f - x_c) [Pa]
-  /// 1/2 sum A t.(u_f - u_c) over a cell's faces [J]; sums to half the external work. Of eigenstrains less half the
-  /// work of the traction moment on them.
-  /// At finite strain, where `stress` is the first Piola-Kirchhoff stress: half the work of what tractions and face
-  /// displacements differ by from those of the mean gradient, 1/2 sum A t.(u_f - u_c - gradient d).
+  /// Elastic energy 1/2 sum A t.(u_f - u_c) over a cell's faces [J]; sums to half the external work. Of eigenstrains
+  /// less half the work of the traction moment on them. At finite strain, where `stress` is the first Piola-Kirchhoff
+  /// stress: half the work of what tractions and face displacements differ by from those of the mean gradient, 1/2 sum
+  /// A t.(u_f - u_c - gradient d).
   CellField<double> energy;
-  /// At finite strain, beside it: half the work of the moment of a cell's tractions about its centre, at its rotation
-  /// beyond that of the whole body [J]; zero where it is not counted; empty: nowhere.
+  /// Energy at finite strain beside `energy`: half the work of the moment of a cell's tractions about its centre, at
+  /// its rotation beyond that of the whole body [J]; zero where it is not counted; empty: nowhere.
   CellField<double> moment_work{};
   /// Energy of a part of the stiffness, its share in `energy` per volume [J/m^3],
   ///
@@ -45,10 +46,10 @@ struct CellMechanics {
   /// pressure in cells that have one [-]; empty unless some material is linearised.
   CellField<Tensor> reconstructed_strain{};
   std::vector<FaceGap> gaps{};  ///< as Mesh::cell_faces; empty without relaxing materials
-  /// At finite strain, of nearly incompressible bodies: J - 1 by the volume of the moved cell, of those with a pressure
-  /// [-]; of others by the mean gradient. Else empty.
+  /// Volume change J - 1 at finite strain, in nearly incompressible bodies [-]: in cells with a pressure by the volume
+  /// of the moved cell, in others by the mean gradient. Else empty.
   CellField<double> volume_change{};
-  /// Then also: what the pressures of cells do not make of `stress` [Pa]. `energy` is then without their work.
+  /// Stress less the share of the pressures, where `volume_change` is given [Pa]. `energy` is then without their work.
   CellField<Tensor> moderate_stress{};
   FaceField<Vector> face_displacement{};  ///< [m]; zero on the front and back of plane and axisymmetric meshes
 

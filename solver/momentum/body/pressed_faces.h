@@ -46,7 +46,7 @@ class PressedFaces {
     Index face, node;
     std::vector<std::size_t> points{};     // in points_, in the order of the face's
     double pressure = 0.0;                 // at which it is linearised [Pa]
-    Vector area = Vector::Zero();          // likewise [m^2]
+    Vector area = Vector::Zero();          // at which it is linearised [m^2]
     Vector initial_turn = Vector::Zero();  // [N]
   };
   void add_face(std::size_t condition, Index face, std::vector<Index>& number_of_point);

@@ -93,7 +93,7 @@ struct Unknowns {
   FaceField<Index> neighbour_node{};       ///< and this that of the neighbour's; -1 elsewhere; empty without any
   std::vector<PatchCondition> conditions;  ///< one per patch of the mesh, free by default
   VolumeLoads loads{};                     ///< as the body has them
-  BoxMotion motion{};                      ///< likewise, and
+  BoxMotion motion{};                      ///< as the body has it, and
   std::vector<PeriodicNodes> periodic{};   ///< its pairs
   std::vector<Tensor> free_directions;     ///< per face node: projector onto the displacements that are not prescribed
   /// Across the one cell of plane and axisymmetric meshes; zero in three-dimensional ones.

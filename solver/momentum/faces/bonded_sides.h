@@ -55,7 +55,7 @@ class BondedSides {
 
   std::vector<Index> number_;      // of each side
   std::vector<std::size_t> side_;  // of each of them
-  std::vector<Index> node_;        // likewise
+  std::vector<Index> node_;        // of each of them
   std::vector<std::size_t> offsets_{0};
   std::vector<Sample> samples_;
   // Terms of axisymmetric meshes, whose hoop strain is that on the surface too.

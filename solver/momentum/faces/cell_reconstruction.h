@@ -14,12 +14,12 @@ class CellReconstruction {
  public:
   explicit CellReconstruction(const FaceSkeleton& skeleton);
 
-  /// For bodies of flat cells that bend, as plates: layers of hexahedra without cubic faces then have the gradients of
-  /// layer_gradients.h, other flat cells weaker jump terms (polyhedral_jump.cpp).
+  /// Prepares bodies of flat cells that bend, as plates: layers of hexahedra without cubic faces then have the
+  /// gradients of layer_gradients.h, other flat cells weaker jump terms (polyhedral_jump.cpp).
   void relax_flat_cells();
   bool relaxes_flat_cells() const { return relaxes_flat_cells_; }
-  /// For tractions by one gradient a cell, as at finite strain: lines of cells in plane meshes too, in place of cubic
-  /// faces.
+  /// Prepares tractions by one gradient a cell, as at finite strain: lines of cells in plane meshes too, in place of
+  /// cubic faces.
   void take_lines_alone();
 
   /// The weights of the gradients of one ring by the stiffness factors g, where these have changed by more than this

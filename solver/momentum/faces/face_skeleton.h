@@ -52,7 +52,7 @@ struct FaceSkeleton {
     const std::size_t i = on.force;
     return i >= links.size() ? turn_of_side(i - links.size()) : (on.sign > 0.0 ? turn_P(i) : turn_N(i));
   }
-  /// In the order of the cell's faces, without those of plane and axisymmetric patches.
+  /// Forces of a cell in the order of its faces, without those of plane and axisymmetric patches.
   std::span<const SignedForce> forces_of(Index cell) const {
     return {cell_forces_.data() + cell_offsets_[cell], cell_forces_.data() + cell_offsets_[cell + 1]};
   }

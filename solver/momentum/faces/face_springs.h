@@ -14,8 +14,8 @@ struct FaceSpring {
   Tensor stiffness;  ///< K of the traction on the owner's side, K delta + offset [Pa/m]
   Vector offset;     ///< [Pa]
   Tensor secant;     ///< for the preconditioner: symmetric, positive semi-definite [Pa/m]
-  /// At finite strain: what the traction changes by with cof F N of the owner and of the neighbour [Pa]. The offset is
-  /// then that of a traction K delta + offset + turn_P (dc_P/dF : H_P) N + turn_N (dc_N/dF : H_N) N.
+  /// Change of the traction at finite strain with cof F N of the owner and of the neighbour [Pa]. The offset is then
+  /// that of a traction K delta + offset + turn_P (dc_P/dF : H_P) N + turn_N (dc_N/dF : H_N) N.
   Tensor turn_P = Tensor::Zero(), turn_N = Tensor::Zero();
 };
 
@@ -23,7 +23,7 @@ class FaceSprings {
  public:
   explicit FaceSprings(const FaceSkeleton& skeleton) : skeleton_(skeleton) {}
 
-  /// In the order of the split faces; empty: none.
+  /// Springs in the order of the split faces; empty: none.
   const std::vector<FaceSpring>& all() const { return springs_; }
   void set(std::vector<FaceSpring> springs) { springs_ = std::move(springs); }
 

@@ -1,5 +1,5 @@
 #pragma once
-// The seam between the momentum balance and what the tractions on its faces are: small strain with isotropic moduli
+// Interface between the momentum balance and the tractions on its faces: small strain with isotropic moduli
 // (isotropic_tractions.h, history_tractions.h) or with a stress by the strain (law_tractions.h), finite strain
 // (finite_tractions.h). Every call is one sweep over the faces, or concerns the preconditioner.
 
@@ -84,7 +84,8 @@ class FaceTractions {
   /// Approximate diagonal of the Schur complement, per pressure [m^3/Pa].
   std::vector<double> pressure_compliance() const;
 
-  /// For the compact matrix: area times c of a link, area times a of a side [N/m]; modulus of the hoop strain [Pa].
+  /// Entries of the compact matrix: area times c of a link, area times a of a side [N/m]; modulus of the hoop strain
+  /// [Pa].
   virtual Tensor compact_link(std::size_t link) const = 0;
   virtual Tensor compact_side(std::size_t side) const = 0;
   virtual double hoop_modulus(Index cell) const = 0;

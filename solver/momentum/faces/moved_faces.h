@@ -63,7 +63,7 @@ class MovedFaces {
   /// Area vector of place i, outwards from its cell and over the undeformed area, and its change by moves. Zero for
   /// cells without a pressure.
   const Vector& area(std::size_t i) const { return loops_[i].area; }
-  /// In place of the polygon's; after place().
+  /// Sets an area vector in place of the polygon's; after place().
   void set_area(std::size_t i, const Vector& area) { loops_[i].area = area; }
   Vector area_change(std::size_t i, const std::vector<Vector>& moves) const;
   /// Volume that place i sweeps with these displacements, linearised, and truly where it is linearised [m^3].

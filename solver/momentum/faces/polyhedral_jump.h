@@ -27,7 +27,7 @@ class PolyhedralJump {
   PolyhedralJump(const FaceSkeleton& skeleton, const CellField<double>& shares)
       : skeleton_(skeleton), share_(shares), liquidity_(skeleton.mesh.n_cells(), 0.0) {}
 
-  /// For the moduli of the cells, before plane stress or pressures change them; `sound`: undamaged ones, empty: those
+  /// Takes the moduli of the cells, before plane stress or pressures change them; `sound`: undamaged ones, empty: those
   /// of the zones.
   void renew(const CellField<IsotropicElasticity>& moduli, const CellField<IsotropicElasticity>& sound);
 

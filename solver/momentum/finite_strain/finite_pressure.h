@@ -34,7 +34,8 @@ class FinitePressure {
   void weigh(const CellField<double>& g) { moved_faces_.weigh(g); }
   /// Areas and pressures about which it is linearised, once the states are.
   void linearise(const FinitePressureSweep& s);
-  /// Then the equations, about the displacements of s, with which the faces have moved by u_face (by force).
+  /// Linearises the equations of the pressures about the displacements of s, with which the faces have moved by u_face
+  /// (by force).
   void linearise_volumes(const std::vector<Vector>& u_face, FinitePressureSweep& s);
 
   /// Area vector of a force on which the pressure acts, over the undeformed area.

@@ -58,7 +58,7 @@ class FiniteStates {
   const CellField<Tensor>& deformation() const { return F_; }
   const CellField<Tensor>& cofactors() const { return cofactor_; }
   const Tensor& deformation_on(Index own) const { return side_states_[own].F; }
-  /// As side number `turn` sees them: of the cell, or of the side's own gradient.
+  /// Stress, cofactor and change as side number `turn` sees them: of the cell, or of the side's own gradient.
   const Tensor& stress_at(Index cell, std::size_t turn) const {
     const Index k = own_at(turn);
     return k < 0 ? laws_[cell].stress : side_states_[k].law.stress;

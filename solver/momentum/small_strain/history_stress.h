@@ -23,7 +23,7 @@ struct HistoryStress {
   /// empty without any.
   CellField<IsotropicElasticity> sound{};
   CellField<char> relaxes{};
-  std::vector<GapStress> gaps{};  ///< what is left of earlier gaps, by Mesh::cell_faces; empty likewise
+  std::vector<GapStress> gaps{};  ///< remainder of earlier gaps, by Mesh::cell_faces; empty without any
 
   bool any() const { return stress.size() > 0; }
 };

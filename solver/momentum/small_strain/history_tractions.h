@@ -24,7 +24,7 @@ class HistoryTractions final : public IsotropicTractions {
   HistoryTractions(const FaceSkeleton& skeleton, CellReconstruction& cells, const CellEigenstrain& eigenstrain)
       : IsotropicTractions(skeleton, cells, eigenstrain, false) {}
 
-  /// As IsotropicTractions::set(), with the history of the body.
+  /// Sets the moduli as IsotropicTractions::set(), with the history of the body.
   void set(const CellField<IsotropicElasticity>& moduli, const CellField<double>& g, double part,
            HistoryStress history);
 

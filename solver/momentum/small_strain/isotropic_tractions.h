@@ -87,7 +87,7 @@ class IsotropicTractions : public SmallTractions {
  protected:
   virtual bool has_initial_stress() const { return eigenstrain_.any(); }
   virtual Tensor initial_stress(Index cell) const { return initial_stress_[cell]; }  // [Pa]
-  // On n of the side of a face that is number `turn` of the cell [Pa].
+  // Initial traction on n of side number `turn` of the cell [Pa].
   virtual Vector initial_traction(Index cell, const Vector& n, std::size_t turn) const;
   // N's less P's on a link [Pa].
   Vector initial_jump(std::size_t link) const {
@@ -101,7 +101,7 @@ class IsotropicTractions : public SmallTractions {
   // gradient at a side is another one than G of the cell.
   template <class StressOf>
   void sweep_faces(const std::vector<Vector>& u, IsotropicSweep& s, const StressOf& stress_of) const;
-  // On side number `turn`, at the distance d from the cell's centre [Pa].
+  // Traction on side number `turn`, at the distance d from the cell's centre [Pa].
   template <class StressOf>
   Vector traction(Index cell, const Vector& n, const Vector& d, std::size_t turn, const IsotropicSweep& s,
                   const StressOf& stress_of) const {
@@ -158,7 +158,7 @@ class IsotropicTractions : public SmallTractions {
   SideValues values_of_side(std::size_t side) const;
   void reconstruct(const std::vector<Vector>& u, IsotropicSweep& s) const;
   bool varies_within_cells() const { return cells_.cubic().any() || cells_.layers().any() || bonded_.size() > 0; }
-  // That of the cell, or of the surface on which side number `turn` is bonded.
+  // Gradient of the cell, or of the surface on which side number `turn` is bonded.
   const Tensor& mean_gradient_at(Index cell, std::size_t turn, const IsotropicSweep& s) const {
     const Index k = bonded_at(turn);
     return k < 0 ? s.gradients[cell] : s.bonded[k];

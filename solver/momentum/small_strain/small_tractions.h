@@ -35,7 +35,7 @@ class SmallTractions : public FaceTractions {
                           const CellField<IsotropicElasticity>& part) const override;
 
  protected:
-  /// In plane stress with the strain across the plate; else the gradient as it is.
+  /// Adds the strain across the plate in plane stress; else the gradient as it is.
   virtual Tensor with_strain_across(Index cell, const Tensor& gradient) const = 0;
   /// Stress [Pa] across the plane of a plane mesh, none in plane stress.
   virtual double stress_across(Index cell, const Tensor& strain, const Sweep& sweep) const = 0;

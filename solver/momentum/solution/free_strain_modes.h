@@ -22,7 +22,7 @@ class FreeStrainModes {
   FreeStrainModes(const Mesh& mesh, const Unknowns& unknowns, const LinearSolver* linear)
       : mesh_(mesh), unknowns_(unknowns), linear_(linear) {}
 
-  /// For the balance as it is now. The first one finds the motions.
+  /// Builds the correction for the balance as it is now. The first call finds the motions.
   void build(const MomentumOperator& balance);
   /// z has to be zero in the free strains.
   void correct(const std::vector<Vector>& r, std::vector<Vector>& z) const;

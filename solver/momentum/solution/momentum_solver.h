@@ -68,7 +68,7 @@ class MomentumSolver {
   std::vector<Vector> unbalanced_forces(double t, const std::vector<Vector>& u) const;
   /// z approximates A^-1 r, after a solve with the moduli of now.
   void precondition(const std::vector<Vector>& r, std::vector<Vector>& z);
-  const std::vector<double>& row_scale() const { return scale_; }  ///< likewise
+  const std::vector<double>& row_scale() const { return scale_; }  ///< after a solve
   /// Residual of these displacements, relative as that of a solution. Prescribed values are not compared.
   double residual(double t, const std::vector<Vector>& u);
   /// Forces [N] on the cells, or on all nodes, at every load parameter from now on; empty for none.

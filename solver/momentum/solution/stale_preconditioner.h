@@ -1,6 +1,6 @@
 #pragma once
-// Whether a preconditioner that was built for an earlier stiffness still serves. It is rebuilt when some cell or split
-// face has changed its stiffness by more than a factor of 2.
+// Decides whether a preconditioner that was built for an earlier stiffness still serves. It is rebuilt when some cell
+// or split face has changed its stiffness by more than a factor of 2.
 
 #include "mesh/fields.h"
 #include "physics/elasticity/elasticity.h"
@@ -42,7 +42,8 @@ class StalePreconditioner {
   bool renew(const CellField<double>& measure, const CellField<IsotropicElasticity>& moduli);
   /// Compares the stiffness of cells of general stiffness.
   bool renew(const CellField<double>& measure);
-  /// At finite strain: also if cells that are not broken have turned or stretched by a good part.
+  /// Compares the stiffness at finite strain: due also if cells that are not broken have turned or stretched by a good
+  /// part.
   bool renew(const CellField<double>& measure, const FiniteTractions& tractions);
   /// Compares the stiffness of the split faces.
   bool renew_springs(std::vector<double> measure);
