@@ -48,7 +48,8 @@ class CoarseCells {
 };
 
 /// Remark on regions of hexahedra in which cracks may choose a direction: the effect of the rows of cells on their
-/// direction and surface energy, and the remedy (tests/verification/README.md has the measurements); empty: none.
+/// direction and surface energy, and the remedy (measurements: tests/verification/log_crack_directions.md); empty:
+/// none.
 std::string direction_remark(const Mesh& mesh, const FractureModel& model);
 
 }  // namespace pfdm

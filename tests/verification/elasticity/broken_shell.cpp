@@ -169,7 +169,7 @@ ShellErrors errors_of(const Shell& shell) {
 
 class BrokenShell : public testing::TestWithParam<std::tuple<Index, double, bool, Cells>> {};
 
-// A third more than the most that meshes which differ by rounding take (README.md).
+// A third more than the most that meshes which differ by rounding take (log_elasticity.md).
 Index most_iterations(double g, bool closed, bool of_polyhedra) {
   if (of_polyhedra) return closed ? 210 : 117;
   if (closed) return 112;
@@ -177,8 +177,8 @@ Index most_iterations(double g, bool closed, bool of_polyhedra) {
 }
 
 // A twenty-faced sphere of 1280 triangles is 1 % smaller than round; the stress within the shell, a small one, suffers
-// from the gradients along the layers next to the jump of g (README.md). In a liquid shell of one layer of polyhedra
-// the pressure varies from cell to cell by a few per cent.
+// from the gradients along the layers next to the jump of g (log_elasticity.md). In a liquid shell of one layer of
+// polyhedra the pressure varies from cell to cell by a few per cent.
 TEST_P(BrokenShell, LoadsTheSphereAsInTheClosedForm) {
   const auto [n_broken, g, closed, cells] = GetParam();
   const ShellErrors e = errors_of({n_broken, g, closed, cells});

@@ -180,7 +180,7 @@ const std::vector<Layer> stiff_of_one_cell{{0.3, 3, 0}, {0.2, 1, 1}, {0.15, 2, 0
 
 TEST_P(TwoMaterials, OfRatio1e3AreInSeries) { expect_series(soft_and_stiff, 1e3); }
 TEST_P(TwoMaterials, OfRatio1e6AreInSeries) { expect_series(soft_and_stiff, 1e6); }
-// The operator is indefinite on wedges (README.md).
+// The operator is indefinite on wedges (log_elasticity.md).
 TEST_P(TwoMaterials, DISABLED_WithAFreeStiffLayerOfOneCellAreInSeries) { expect_series(stiff_of_one_cell, 1e3); }
 INSTANTIATE_TEST_SUITE_P(Laminate, TwoMaterials, loads_and_cells, [](const auto& test) { return name_of(test.param); });
 
@@ -198,7 +198,7 @@ class BrokenLayer : public testing::TestWithParam<LoadAndCells> {
     EXPECT_LE(e.stress, 0.25);  // along the layers; without the g-weights of the gradients it is 1e4
     EXPECT_LE(e.displacement, of_polyhedra() ? 2e-7 : 1e-9);
     EXPECT_LE(e.weakest_strain, of_polyhedra() ? 6e-7 : 2e-9);
-    // Against 1e-6 of the broken strain: a polyhedron's jump term is not the two sides' in full (README.md).
+    // Against 1e-6 of the broken strain: a polyhedron's jump term is not the two sides' in full (log_elasticity.md).
     EXPECT_LE(e.sound_strain, of_polyhedra() ? 0.1 : 5e-7);
   }
 };

@@ -1,4 +1,4 @@
-// Statistics of the joint calibration on synthetic data, long: run by hand, its figures stand in README.md.
+// Statistics of the joint calibration on synthetic data, long: run by hand, its figures stand in log_histories.md.
 //
 //   endochronic_recovery [repetitions] [points of the experiment]
 
