@@ -24,7 +24,7 @@ namespace pfdm {
 class CoupledNewton {
  public:
   /// Whether it takes less time than the alternation alone: on meshes one cell thick, where the preconditioner is
-  /// Cholesky factors and a solution takes some ten iterations of FGMRES (tests/benchmark/README.md).
+  /// Cholesky factors and a solution takes some ten iterations of FGMRES (tests/benchmark/log_iterations.md).
   static bool suits(const Mesh& mesh, const Unknowns& unknowns);
 
   /// Newton's method of one step of loading, with the solvers of the alternation; `part`: the part of the stiffness

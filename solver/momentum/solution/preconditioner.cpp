@@ -14,7 +14,8 @@
 namespace pfdm {
 namespace {
 
-// Cells of the largest mesh one cell thick for which the factors are the automatic choice (tests/benchmark/README.md).
+// Cells of the largest mesh one cell thick for which the factors are the automatic choice
+// (tests/benchmark/log_solvers.md).
 constexpr Index most_direct_cells = 40000;
 
 // Row of each node: face nodes follow a cell of theirs.
