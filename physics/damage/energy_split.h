@@ -7,8 +7,8 @@
 // what compression keeps, in principal strains.
 //
 // Where the elasticity depends on the direction a split says what it keeps by the whole stiffness. It keeps the nearest
-// stress, in the norm of the energy, of those that it may keep, or a part that is orthogonal to the rest: psi_plus and
-// psi_minus add up to the energy, and isotropic constants give the isotropic split.
+// stress, in the norm of the energy, of those that it may keep, or a part that is orthogonal to the rest. Then psi_plus
+// and psi_minus add up to the energy, and isotropic constants give the isotropic split.
 
 #include "physics/elasticity/anisotropy.h"
 #include "physics/elasticity/elasticity.h"

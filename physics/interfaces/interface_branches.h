@@ -5,7 +5,7 @@
 //   q' + q/tau = K p',
 //
 // exact for a separation that changes linearly in the step (physics/prony_decay.h). w is the share of its stiffness in
-// shear that the bond still has, as of friction (interface_law.h): it is 1 at first and 0 in the end, so that the
+// shear that the bond still has, as of friction (interface_law.h). It is 1 at first and 0 in the end, so that the
 // branches vanish with debonding (as damage does in Musto, Alfano, Comput. Struct. 118 (2013) 126). At small strain.
 //
 // w |q|^2/(2 K) is stored. Viscous is what the dashpot takes, with the mean of w at the step's ends, and what springs

@@ -1,5 +1,5 @@
 #pragma once
-// The toughness that a crack in a thin band feels when the band's neighbours are tougher or cannot be damaged: the
+// The toughness that a crack in a thin band feels when the band's neighbours are tougher or cannot be damaged. The
 // phase field's profile is wider than the band, so more than the band's own Gc is dissipated. For a crack at mid-band,
 // fully developed and without elastic energy within the profile, each half minimises
 //

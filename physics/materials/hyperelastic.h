@@ -20,8 +20,8 @@
 //
 // Formulas start from H = F - 1 and E, so that small strains lose no digits.
 //
-// Where J < 0.1 the functions of J, -p0 ln J + U and W_c, go on as their expansion to second order about J = 0.1: the
-// energy, convex in J still, and its stress are finite for any F, also where a cell has turned inside out.
+// Where J < 0.1 the functions of J, -p0 ln J + U and W_c, go on as their expansion to second order about J = 0.1. The
+// energy, convex in J still, and its stress are then finite for any F, also where a cell has turned inside out.
 //
 // Nearly incompressible materials (nu > 0.47): an unknown pressure q = c U'(J) carries the share c of U that is beyond
 // lambda_s = 2.5 mu (solver/momentum/body/cell_pressure.h), P = dW_m/dF + q cof F with W_m = W - c U.
@@ -77,8 +77,8 @@ struct VolumeAt {
 
 class HyperelasticMaterial final : public Material {
  public:
-  /// Throws InputError for shares that do not sum to 1 or are not as many as the exponents, an exponent of zero, a
-  /// second_invariant outside 0 to 1, a Poisson's ratio above 0.47 for saint_venant_kirchhoff, which has no
+  /// Throws InputError for shares that do not sum to 1 or are not as many as the exponents, an exponent of zero, and a
+  /// second_invariant outside 0 to 1. Also for a Poisson's ratio above 0.47 for saint_venant_kirchhoff, which has no
   /// pressure, and parameters that make Lambda negative or the shear modulus not that of the elasticity.
   HyperelasticMaterial(const HyperelasticLaw& law, HyperelasticParameters parameters);
 

@@ -10,7 +10,7 @@
 //   q = exp(-x) q_n + phi (e - e_n).
 //
 // In harmonic motion the shear modulus is mu + sum mu_i i w tau_i/(1 + i w tau_i), as dynamic mechanical analysis gives
-// it; a term beta exp(-alpha t) of a relaxation kernel is a branch with mu_i = beta and tau_i = 1/alpha.
+// it. A term beta exp(-alpha t) of a relaxation kernel is a branch with mu_i = beta and tau_i = 1/alpha.
 
 #include "physics/materials/material.h"
 #include "physics/prony_decay.h"

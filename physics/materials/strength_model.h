@@ -7,8 +7,8 @@
 //
 // psi_open = psi_plus where the undamaged stress has tr sigma >= 0, else 0; c [J/m^3] is a linear function of the
 // invariants of that stress. Its coefficients, which depend on ell, are such that a sound cell begins to break at the
-// strengths, whatever ell; in other directions of stress it does on a surface that tends to the given one as ell -> 0.
-// The factor delta has a long crack dissipate Gc. At finite strain the stress is Biot's and the energies at the
+// strengths, whatever ell. In other directions of stress it does so on a surface that tends to the given one as ell ->
+// 0. The factor delta has a long crack dissipate Gc. At finite strain the stress is Biot's and the energies at the
 // strengths are those of the material's own law (Kumar, Lopez-Pamies, J. Mech. Phys. Solids 150 (2021) 104359).
 
 #include "physics/elasticity/elasticity.h"

@@ -1,6 +1,6 @@
 #pragma once
-// Heat where a body dissipates: what a load step dissipates in materials (viscous, plastic), by the viscosity of the
-// damage equation and on cohesive interfaces (friction, decohesion) goes into cells and interface faces and is
+// Heat where a body dissipates: in materials (viscous, plastic), by the viscosity of the damage equation, and on
+// cohesive interfaces (friction, decohesion). The dissipation of a load step goes into cells and interface faces and is
 // conducted in the time of the step (solver/heat). Surface energy of the phase field is no heat, nor is what a strength
 // model's driving force does. The way is one-way: temperatures strain nothing and change no modulus. Cracks conduct as
 // sound material does.

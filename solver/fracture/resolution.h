@@ -31,10 +31,10 @@ ResolutionWords resolution_words(const Mesh& mesh, const FractureModel& model, s
 class CoarseCells {
  public:
   CoarseCells(const Mesh& mesh, const FractureModel& model);
-  /// A warning for each region in which a crack (d > 0.5) has now entered cells that are too thick, or in which the
-  /// damage of neighbours differs by more than 0.6, where it changes most: profiles are no steeper than 1/ell.
-  /// Neighbours are 0.6 ell apart at least in a crack of one or two hexahedra, 1.25 ell elsewhere, as at fronts that
-  /// run along bands. Each region is named once.
+  /// A warning for each region in which a crack (d > 0.5) has now entered cells that are too thick. Also for one in
+  /// which the damage of neighbours differs by more than 0.6, where it changes most: profiles are no steeper than
+  /// 1/ell. Neighbours are 0.6 ell apart at least in a crack of one or two hexahedra, 1.25 ell elsewhere, as at fronts
+  /// that run along bands. Each region is named once.
   std::vector<std::string> look(const CellField<double>& damage);
 
  private:

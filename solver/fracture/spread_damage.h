@@ -1,6 +1,6 @@
 #pragma once
 // Damage that grows evenly over a body that softens. Such a state is in equilibrium, and a solver that starts from a
-// uniform body stays on it, but it is unstable once the body is longer than a few ell: its energy falls where the
+// uniform body stays on it. But it is unstable once the body is longer than a few ell: its energy falls where the
 // damage gathers in one place, which it does in a real body (Pham, Amor, Marigo, Maurini, Int. J. Damage Mech. 20
 // (2011) 618).
 

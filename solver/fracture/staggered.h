@@ -66,8 +66,8 @@ class Staggered {
                          const IterationWatch& watch = {});
 
   /// Elastic and surface energy [J], less the potential of tractions, with the displacements that balance the state's
-  /// damage at its load and the split as it is there. has_reduced_energy: whether there is nothing besides, as cohesive
-  /// faces, histories of materials, finite strain, a viscosity or a strength model.
+  /// damage at its load and the split as it is there. `has_reduced_energy` says whether there is nothing besides: no
+  /// cohesive faces, histories of materials, finite strain, a viscosity or a strength model.
   double reduced_energy(FractureState state);
   bool has_reduced_energy() const;
 

@@ -12,11 +12,10 @@
 // joins them (face_springs.h).
 //
 // Periodic faces: the image has no unknown of its own, but the displacement of its node plus what is prescribed between
-// the two, and its forces act on that node: t_P + t_N = 0 as on an interface, whose sides lie at different places.
+// the two. Its forces act on that node: t_P + t_N = 0 as on an interface, whose sides lie at different places.
 //
-// Free strains E of a box move its held faces by E (x - x_0), x_0 its centre, and the images of its nodes by
-// E (x_image - x_node); the work of the forces on these moves, by E, is the mean stress times the volume: that is their
-// equation.
+// Free strains E of a box move its held faces by E (x - x_0), x_0 its centre, and the images of its nodes by E (x_image
+// - x_node). Their equation: the work of the forces on these moves, by E, is the mean stress times the volume.
 //
 // Const functions keep nothing between calls: the work space of a sweep belongs to its caller.
 

@@ -1,8 +1,8 @@
 #pragma once
 // The stiffness of damaged cells, which depends on the strain where the energy split keeps compression. Within the
 // momentum solve it is linear, taken at the last strain: secant moduli where the split has isotropic ones, else its
-// tangent, which is the secant as well (energies of second degree), so that the solves are Newton's steps. Cells with a
-// history are linearised about it, with a stress of their own.
+// tangent. The tangent is the secant as well (energies of second degree), so the solves are Newton's steps. Cells with
+// a history are linearised about it, with a stress of their own.
 
 #include "solver/fracture/cells/finite_cells.h"
 #include "solver/fracture/cells/material_cells.h"
@@ -35,16 +35,16 @@ class CellStiffness {
   /// was used; NaN where a material's step cannot be solved.
   double integrate(const CellMechanics& mechanics, const FractureState& start, FractureState& state);
 
-  /// psi_plus [J/m^3] of a cell, the derivative of its energy by the stiffness factor g: the energy of the part of the
-  /// stiffness that is degraded, which `mechanics` has to have; where there is none, that of the strain; with a
-  /// history, that of the state.
+  /// psi_plus [J/m^3] of a cell, the derivative of its energy by the stiffness factor g. It is the energy of the part
+  /// of the stiffness that is degraded, which `mechanics` has to have. Where there is none it is that of the strain,
+  /// with a history that of the state.
   double driving_energy(Index cell, const CellMechanics& mechanics, const FractureState& state) const;
   /// Parts of the cells' energies at finite strain, and psi_plus at any damage d of a cell, with its derivative by d.
   CellField<FiniteEnergies> finite_energies(const CellMechanics& mechanics, const FractureState& state) const;
   DrivingAt driving_energy(Index cell, const FiniteEnergies& at, double d) const;
   /// Whether alternate minimisation descends: the driving energy of every damageable cell is the derivative of the
-  /// discrete energy (that of the part of the stiffness that damage degrades; at finite strain nearly so, where no
-  /// pressure is lost faster than the stiffness).
+  /// discrete energy. That of the part of the stiffness that damage degrades is; at finite strain nearly so, where no
+  /// pressure is lost faster than the stiffness.
   bool descends() const;
   /// Whether the stiffness of some damageable cell depends on its strain, as where cracks close.
   bool depends_on_strain() const;

@@ -7,7 +7,7 @@
 //
 // Within a load step each equilibrium is linear, with the stress linearised at the last strain eps_k by the consistent
 // tangent T: sigma_0 = sigma_0(eps_k) + T (eps - eps_k). The first of a step is elastic, as the load may reverse. The
-// strain is the least-squares one, which also enters the tractions of the faces: with any other, the converged solution
+// strain is the least-squares one, which also enters the tractions of the faces. With any other, the converged solution
 // would depend on T, which changes with the direction of the increment, and the iteration would not converge.
 
 #include "mesh/mesh.h"

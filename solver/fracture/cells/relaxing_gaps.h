@@ -1,7 +1,7 @@
 #pragma once
 // Memory of the gaps at the faces of relaxing cells (physics/materials/prony.h). A gap is the difference of the strain
 // there from that of the cell (CellMechanics::gaps). The law is linear, so that a gap z [-] is a strain that it bears
-// as any other: the traction of a branch is its modulus times r, r' + r/tau = z', and relaxes with it. A gap that met
+// as any other. The traction of a branch is its modulus times r, r' + r/tau = z', and relaxes with it. A gap that met
 // the instantaneous moduli for ever would make a body that has relaxed too stiff. Materials of nu above 0.4 at any
 // time, and bodies in plane stress, have none of it (gaps_relax).
 //

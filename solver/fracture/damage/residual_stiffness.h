@@ -1,7 +1,7 @@
 #pragma once
 // Share of the load that the residual stiffness k of broken cells carries. At a prescribed load the elastic energy E of
-// the body changes by dE/dk = int (1 - g) psi_plus dV (all else is stationary), so that R = k dE/dk is the part of it,
-// and R/E the part of the force, that is there only because k is not zero.
+// the body changes by dE/dk = int (1 - g) psi_plus dV, as all else is stationary. So R = k dE/dk is the part of E that
+// is there only because k is not zero, and R/E that part of the force.
 
 #include <string>
 
@@ -27,8 +27,8 @@ class ResidualStiffness {
   explicit ResidualStiffness(double k) : k_(k) {}
 
   /// The warning after a step at this load parameter; empty if there is none, and once it has been given.
-  /// `energy_before` [J]: what the body had or was given before it broke, as a step may pass the peak and a restart
-  /// comes after it: the larger of the elastic energy that the step began with and of the work so far.
+  /// `energy_before` [J]: energy that the body had or was given before it broke, as a step may pass the peak and a
+  /// restart comes after it. It is the larger of the elastic energy that the step began with and of the work so far.
   std::string remark(const ResidualShare& share, double energy_before, double load);
 
  private:

@@ -1,7 +1,7 @@
 #pragma once
-// The damage D that degrades the stiffness, apart from the damage d of the surface energy (StiffnessBy::mean). With
-// D = d each cell breaks by its own d, d = 1 in a row one cell thick, and a growing crack leaves that row only by a
-// jump of a cell's width: it locks to the rows of hexahedra. Here the stiffness sees the mean of d about a cell,
+// The damage D that degrades the stiffness, apart from the damage d of the surface energy (StiffnessBy::mean). With D =
+// d each cell breaks by its own d, d = 1 in a row one cell thick. A growing crack leaves that row only by a jump of a
+// cell's width: it locks to the rows of hexahedra. Here the stiffness sees the mean of d about a cell,
 //
 //   x = A d,  A: mean over the cell's vertices of the means over the cells around each (1/4, 1/2, 1/4 in a direction of
 //             equal hexahedra), with weights 1 + lambda . r, r from the mean's place, that make both exact for linear
@@ -13,9 +13,9 @@
 // O((h/ell)^2). The energy is int g(D) psi and the surface energy of d; its derivative by d is
 // A^T (g'(D) phi'(x) psi).
 //
-// Cells that have D = d: other shapes, undamageable ones and those with a material with a history or a split without
-// energy, those beside other regions, cohesive faces or rows along planes of symmetry, and those whose mean reaches 1.5
-// times as far in one direction as in another, or has h > ell.
+// Cells that have D = d are other shapes, undamageable ones and those with a material with a history or a split without
+// energy. So are those beside other regions, cohesive faces or rows along planes of symmetry, and those whose mean
+// reaches 1.5 times as far in one direction as in another, or has h > ell.
 
 #include "solver/fracture/damage/vertex_means.h"
 #include "solver/fracture/model/fracture_model.h"

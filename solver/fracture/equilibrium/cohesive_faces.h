@@ -6,14 +6,13 @@
 // 1000: it gives by a thousandth of what they do, and stiffens in compression likewise.
 //
 // Finite strain: separation and traction are those of a pair of points that were one, the traction per reference area.
-// The law sees them in a frame that follows the body; its normal n is the mean of the unit normals of both sides,
-// cof F N / |cof F N| with F of the cells beside the face (two arcs of one circle that have slid along each other then
-// touch, to the second order). Opened interfaces pull along their separation, and have no moment; the pressure of
-// closed ones does have one once they have slid, p |slip| per area, which nothing balances: contact is between points
-// that were one, and right as long as they stay neighbours. Separations and n are those about which the balance is
-// linearised.
+// The law sees them in a frame that follows the body. Its normal n is the mean of the unit normals of both sides, cof F
+// N / |cof F N| with F of the cells beside the face (two arcs of one circle that have slid along each other then touch,
+// to the second order). Opened interfaces pull along their separation, and have no moment. The pressure of closed ones
+// does have one once they have slid, p |slip| per area, which nothing balances. Contact is between points that were
+// one, and right as long as they stay neighbours. Separations and n are those about which the balance is linearised.
 //
-// Where the law falls more steeply than C^-1 the two cells tear a face at a jump, whatever the load does elsewhere: the
+// Where the law falls more steeply than C^-1 the two cells tear a face at a jump, whatever the load does elsewhere. The
 // solution of one face is unique, and the process zone resolved, only with smaller cells (warnings).
 
 #include "solver/fracture/model/fracture_model.h"

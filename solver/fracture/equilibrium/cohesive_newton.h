@@ -1,7 +1,7 @@
 #pragma once
-// Equilibrium with the laws of cohesive faces, by Newton's method: the laws are linearised about the last separation
-// within each linear solve, with the tangent, or while that leads astray (a jump) with its convex part, in which
-// nothing softens: each such step minimises a majorant of the energy, and faces break on from below until the rest of
+// Equilibrium with the laws of cohesive faces, by Newton's method. Within each linear solve the laws are linearised
+// about the last separation, with the tangent. While that leads astray (a jump) its convex part is taken, in which
+// nothing softens. Each such step minimises a majorant of the energy, and faces break on from below until the rest of
 // them holds. In between every face is brought into balance with the cells beside it. A converged state does not depend
 // on any of this.
 

@@ -1,6 +1,6 @@
 #pragma once
 // Newton's method on displacement and damage together, for the iterations in which a crack grows steadily or a step
-// settles; in between, jumps are left to the accelerated alternation (composed, as in Farrell, Maurini, IJNME 109
+// settles. In between, jumps are left to the accelerated alternation (composed, as in Farrell, Maurini, IJNME 109
 // (2017) 648). Its equations, at a state (u, d) whose answer by the damage equation is known,
 //
 //   [ A         dA/dd u ] [du]   [ load - A u ]

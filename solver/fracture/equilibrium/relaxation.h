@@ -1,18 +1,18 @@
 #pragma once
-// Acceleration of the staggered loop. Alternate minimisation descends; Nesterov's momentum, which carries each iterate
-// on along the last step, takes the square root of its iterations where it is slow, be it at a minimum or on the way
-// from an unstable state, and starts anew whenever the increments point back (Beck, Teboulle, SIAM J. Imaging Sci. 2
-// (2009) 183; adaptive restart: O'Donoghue, Candes, Found. Comput. Math. 15 (2015) 715).
+// Acceleration of the staggered loop. Alternate minimisation descends; Nesterov's momentum carries each iterate on
+// along the last step. Where the alternation is slow, at a minimum or on the way from an unstable state, it takes the
+// square root of its iterations. It starts anew whenever the increments point back (Beck, Teboulle, SIAM J. Imaging
+// Sci. 2 (2009) 183; adaptive restart: O'Donoghue, Candes, Found. Comput. Math. 15 (2015) 715).
 //
 // Where the driving energy is not the derivative of the discrete energy (cell_stiffness.h) there is no descent, and
-// momentum ends in limit cycles: there the increments are over-relaxed by one secant factor for the whole field
+// momentum ends in limit cycles. There the increments are over-relaxed by one secant factor for the whole field
 // (Aitken's in vector form: Irons, Tuck, IJNME 1 (1969) 275), the largest of which is reduced where the iteration makes
 // little net progress.
 //
-// Besides, a relaxation factor of each cell's own: it halves whenever the cell's increment changes sign and recovers
-// while it does not, so that a few oscillating cells neither prevent convergence nor slow down the rest; until it has
-// recovered, the cell has no momentum. If the iteration still has a limit cycle, Anderson acceleration starts from the
-// mean of the cycle.
+// Besides, each cell has a relaxation factor of its own. It halves whenever the cell's increment changes sign and
+// recovers while it does not. So a few oscillating cells neither prevent convergence nor slow down the rest. Until it
+// has recovered, the cell has no momentum. If the iteration still has a limit cycle, Anderson acceleration starts from
+// the mean of the cycle.
 
 #include "solver/fracture/equilibrium/anderson.h"
 

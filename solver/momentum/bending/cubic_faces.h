@@ -1,12 +1,12 @@
 #pragma once
 // Faces of third order where few layers of hexahedra bend, in plane meshes (plane strain or stress). With the gradients
 // of one ring (momentum.h) the slip between the faces across a beam and those along it is of first order in the
-// curvature's derivative: cells of length h_x in n layers of a body of thickness h bend as if it were stiffer by 1.5 (1
-// - nu) (h_x/h)^2 and softer by (3 - 2/n)/n^2. Here each cell fits a cubic to its surroundings, and its faces take the
-// mean of its gradient over the face in place of the cell's gradient, and its displacement at the face's centre in that
-// of the linear one. A field that is cubic, as that of a beam under an end load (Barre de Saint-Venant), then is exact,
-// whatever the shape of the cells. After the third-order cell-centred scheme of Batistic, Castrillo, Cardiff, arXiv
-// 2601.18417.
+// curvature's derivative. Cells of length h_x in n layers of a body of thickness h bend as if it were stiffer by 1.5 (1
+// - nu) (h_x/h)^2 and softer by (3 - 2/n)/n^2. Here each cell fits a cubic to its surroundings. Its faces take the mean
+//   of the cubic's gradient over the face in place of the cell's gradient. They take its displacement at the face's
+//   centre in place of the linear one. A field that is cubic, as that of a beam under an end load (Barre de
+//   Saint-Venant), then is exact, whatever the shape of the cells. After the third-order cell-centred scheme of
+//   Batistic, Castrillo, Cardiff, arXiv 2601.18417.
 //
 // Samples: the cells of the same zone within two faces, the second face being opposite to the first or reached in two
 // ways (else a notch may lie between), and the nodes of the cell and of its neighbours. Weight |xi|^-6, xi being

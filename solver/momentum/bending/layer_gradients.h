@@ -3,10 +3,10 @@
 // of vibrating ones, others in space, and at finite strain also in plane meshes.
 //
 // With the gradients of one ring (momentum.h) n layers leave out the bending within each of them, (3 - 2/n)/n^2 of the
-// stiffness, less in torsion; the jump term of the faces across the span adds 1.5 (1 - nu) (h_x/h)^2 in cells of length
-// h_x; and slopes by differences over two cells are too small by a sixth of (wave number times h_x)^2. A cubic fit to
-// all cells around (cubic_faces.h) cures plane meshes, but makes torsion too stiff where cells along free edges are
-// longer than the thickness. Lines of cells do not:
+// stiffness, less in torsion. The jump term of the faces across the span adds 1.5 (1 - nu) (h_x/h)^2 in cells of length
+// h_x. Slopes by differences over two cells are too small by a sixth of (wave number times h_x)^2. A cubic fit to all
+// cells around (cubic_faces.h) cures plane meshes, but makes torsion too stiff where cells along free edges are longer
+// than the thickness. Lines of cells do not:
 //
 // 1. The derivative of a cell along each of its lines is the mean over the cell of the polynomial through the slopes
 //    between the centres of the line's cells, four of them, three beside a surface. Slopes of half cells at free
@@ -27,7 +27,7 @@
 // Linear fields remain exact. Split faces are free surfaces whose node moves.
 //
 // Damage: the lines of a cell count as much as the stiffness factors of the cells on them agree, none if one has less
-// than three quarters of another's; a jump counts as that of one ring does by the lesser of both cells.
+// than three quarters of another's. A jump counts as that of one ring does by the lesser of both cells.
 
 #include "mesh/mesh.h"
 #include "solver/momentum/bending/bending_layers.h"
@@ -67,8 +67,8 @@ class LayerGradients {
   void leave_out() { counts_ = false; }
   /// Whether the jump at a link has a weight of its own.
   bool weighs(std::size_t link) const { return any() && is_weighed_[link] != 0; }
-  /// Turns the gradients of one ring of the displacements u into those along the lines, and finds by what the gradient
-  /// at a side, by its number, differs from that of the cell; sides that are no surfaces are left alone.
+  /// Turns the gradients of one ring of the displacements u into those along the lines. Finds the difference of the
+  /// gradient at a side, by its number, from that of the cell; sides that are no surfaces are left alone.
   void correct(const std::vector<Vector>& u, CellField<Tensor>& gradients, std::vector<Tensor>& changes) const;
   /// Variation of a field of the cells, as their gradient, along one of a cell's lines: the root of its mean square
   /// over the cell.

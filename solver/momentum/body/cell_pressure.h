@@ -1,14 +1,14 @@
 #pragma once
 // Nearly incompressible cells carry a pressure: the part q of the mean stress beyond that of a moderate lambda_s is an
-// unknown of its own (a mixed form, as of Stokes' problem), because a reconstructed divergence times lambda locks or
-// oscillates as nu -> 1/2.
+// unknown of its own (a mixed form, as of Stokes' problem). The reason is that a reconstructed divergence times lambda
+// locks or oscillates as nu -> 1/2.
 //
 //   sigma = lambda_s tr(G) I + 2 mu sym(G) + q I,  lambda_s = 2.5 mu of the undamaged material,
 //   V q / (lambda - lambda_s) = sum over faces of u_f.S,
 //
 // with u_f the two-sided displacement of the face, at which the tractions of both its cells, q included, agree
 // (isotropic_tractions.h). The dependence of u_f on the difference of the two q suppresses oscillations, as the
-// pressure-weighted interpolation of Rhie and Chow (AIAA J. 21 (1983) 1525) does in collocated schemes for fluids: q is
+// pressure-weighted interpolation of Rhie and Chow (AIAA J. 21 (1983) 1525) does in collocated schemes for fluids. q is
 // extrapolated to the face by its least-squares gradient, so that only rough pressures are damped. Between cells of
 // different damage q may jump: there its gradient has a smaller weight. The fluxes u_f.S of two neighbours cancel on
 // their common face; a warped face requires an additional term, the flux of the gradient through its triangles.

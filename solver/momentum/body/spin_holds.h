@@ -1,9 +1,9 @@
 #pragma once
-// Spins of cells that the unknowns do not see: displacements are compared at the centres of faces, and a cell of a
-// column one cell wide, or one alone, can turn about the line of these centres without moving any of them. What turns
-// with it in the body, the cells beside it in the column and the planes of its faces, then holds it by the gradients
-// of displacement: a beam's resistance to torsion between cells, and at a face along which a displacement is
-// prescribed that displacement's slope. Where the spin is free of load they do nothing.
+// Spins of cells that the unknowns do not see. Displacements are compared at the centres of faces, and a cell of a
+// column one cell wide, or one alone, can turn about the line of these centres without moving any of them. The cells
+// beside it in the column and the planes of its faces, which turn with it in the body, then hold it by the gradients of
+// displacement. Between cells that is a beam's resistance to torsion. At a face along which a displacement is
+// prescribed it is that displacement's slope. Where the spin is free of load they do nothing.
 
 #include "mesh/mesh.h"
 

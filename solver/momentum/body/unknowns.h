@@ -148,8 +148,8 @@ struct Unknowns {
 bool is_nearly_incompressible(const IsotropicElasticity& elasticity);
 
 /// Throws InputError for a condition on an unknown patch, two conditions on one patch, a symmetry patch that is not
-/// plane, plane stress together with plane strain, a plane mesh without a front or a back, or a part of the body that
-/// nothing holds against a rigid motion.
+/// plane, and plane stress together with plane strain. Also for a plane mesh without a front or a back, and a part of
+/// the body that nothing holds against a rigid motion.
 Unknowns place_unknowns(const Mesh& mesh, const ElasticBody& body);
 
 }  // namespace pfdm

@@ -7,8 +7,8 @@
 //
 // j being the faces of the patch that share a point with it and c_j the coefficients of least squares within the
 // tangent plane. It is G where the displacement is linear. The traction follows from H and twice the stiffness a of
-// other faces: t = sigma(H) n + 2 a (u_f - u_c - H d), the slope at the wall of a parabola through it and two cells, as
-// G is its slope at the cell's centre and (u_f - u_c)/d that half-way.
+// other faces: t = sigma(H) n + 2 a (u_f - u_c - H d). This is the slope at the wall of a parabola through it and two
+// cells, as G is its slope at the cell's centre and (u_f - u_c)/d that half-way.
 
 #include "solver/momentum/body/momentum_faces.h"
 #include "solver/momentum/body/unknowns.h"

@@ -1,9 +1,9 @@
 #pragma once
 // Sums over the faces of a cell, from which its strain, stress and energy follow. The strain is that of the face
 // displacements at which the two sides of each face agree (Green-Gauss). It is exact in a laminate however broken a
-// layer is, where the least-squares gradient, which reaches over the layer, is wrong by factors; and with the tractions
-// it closes the energy account: sum over cells of 1/2 sum A t.(u_f - u_c) is half the work of the boundary forces,
-// because t and u_f are one on each face and the forces on a cell cancel.
+// layer is. The least-squares gradient, which reaches over the layer, is wrong by factors there. With the tractions it
+// closes the energy account: sum over cells of 1/2 sum A t.(u_f - u_c) is half the work of the boundary forces, because
+// t and u_f are one on each face and the forces on a cell cancel.
 
 #include "solver/momentum/faces/face_tractions.h"
 

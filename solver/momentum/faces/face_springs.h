@@ -1,5 +1,5 @@
 #pragma once
-// The springs between the two sides of split faces (cohesive interfaces): each side has a node and a traction of its
+// The springs between the two sides of split faces (cohesive interfaces). Each side has a node and a traction of its
 // own, and a law of their separation joins them, t_P = T(u_N - u_P) = -t_N, linearised within each solve.
 
 #include "solver/linear/block_matrix.h"

@@ -10,7 +10,7 @@
 //   derivative by u_f is the area vector S on which the pressure acts.
 //
 // On free and split faces of hexahedra and prisms S is cof F N of the cell, on bonded sides and on surfaces of layers
-// that bend that of the side's own gradient: the points of a free face that has another one opposite to it move with
+// that bend that of the side's own gradient. The points of a free face that has another one opposite to it move with
 // shears that the cell does not resolve, and a pressure on their polygon is unstable. Tetrahedra and polyhedra have no
 // such shears. There cof F N, with which the areas of the cell's faces do not add up to zero, is what is unstable.
 //

@@ -4,10 +4,9 @@
 //
 // Polyhedra have about 14 faces against three unknowns: with a of the full lambda the jump terms lock as nu -> 0.5.
 // Their c uses lambda_s = min(lambda, 1.5 mu) in the undamaged material, and the same fraction of lambda + 2 mu in a
-// damaged one, blended back to the full one between cells of different damage:
-// c = c(lambda_s) + theta (c(lambda) - c(lambda_s)), theta = 1 - min(mu_P, mu_N)/max(mu_P, mu_N). The weights of
-// sigma_P and sigma_N keep the full lambda. On tetrahedra a smaller c would not converge. Polyhedra of general
-// stiffness C keep the full a.
+// damaged one. It is blended back to the full one between cells of different damage: c = c(lambda_s) + theta (c(lambda)
+// - c(lambda_s)), theta = 1 - min(mu_P, mu_N)/max(mu_P, mu_N). The weights of sigma_P and sigma_N keep the full lambda.
+// On tetrahedra a smaller c would not converge. Polyhedra of general stiffness C keep the full a.
 //
 // Closed cracks in polyhedra: where the split keeps lambda, a broken cell has no shear stiffness (mu << lambda).
 // Tangential displacements that alternate between such polyhedra have gradients without divergence, but cause forces on

@@ -9,8 +9,8 @@
 
 namespace pfdm {
 
-/// Stress that a relaxing material has on a face where the strain there does not differ from the cell's: shear moduli
-/// times what is left of earlier gaps (CellMechanics::gaps), and bulk moduli times that along the normal.
+/// Stress that a relaxing material has on a face where the strain there does not differ from the cell's. It is shear
+/// moduli times the remainder of earlier gaps (CellMechanics::gaps), and bulk moduli times that along the normal.
 struct GapStress {
   Vector shear = Vector::Zero();  ///< [Pa]
   double bulk = 0.0;              ///< [Pa]

@@ -2,9 +2,9 @@
 // Common part of the tractions at small strain: eigenstrains, and the strains, stresses and energies of the cells.
 //
 // Eigenstrains eps*: each side of a face has the initial traction -n.C eps*, so that tractions agree across a face also
-// where eps* jumps. Axisymmetric meshes (a sector one cell wide): the gradient also has the hoop strain u_r / r, and
-// the two faces of the sector act on the cell with the hoop stress sigma_phi: -2 sin(half the angle) A sigma_phi along
-// r. Plane stress: the stiffness is condensed to zero stress across the plate (physics/elasticity/plane_stress.h); the
+// where eps* jumps. Axisymmetric meshes (a sector one cell wide): the gradient also has the hoop strain u_r / r. The
+// two faces of the sector act on the cell with the hoop stress sigma_phi: -2 sin(half the angle) A sigma_phi along r.
+// Plane stress: the stiffness is condensed to zero stress across the plate (physics/elasticity/plane_stress.h); the
 // strain across it is added to that of the displacements.
 
 #include "solver/momentum/body/cell_eigenstrain.h"
@@ -47,7 +47,7 @@ class SmallTractions : public FaceTractions {
   /// Adds the results that materials with a history need.
   virtual void add_histories(const FaceMoves&, CellMechanics&) const {}
 
-  /// The energy of the mean strain and of what the strains of the faces differ from it; without eigenstrains, of which
+  /// The energy of the mean strain and of the differences of the faces' strains from it; without eigenstrains, of which
   /// the cell has one. strain_at(turn, d, n, move) is the gradient at a face that moves by `move`.
   template <class Part, class StrainAt>
   double energy_over_faces(Index cell, const Part& part, const Tensor& strain, const FaceMoves& moves,

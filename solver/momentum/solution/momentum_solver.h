@@ -1,9 +1,8 @@
 #pragma once
 // Equilibrium at fixed damage: flexible GMRES on the traction operator, preconditioned by multigrid or Cholesky factors
-// of its compact matrix; with pressures by the block triangle [A B; 0 S], these for A and a diagonal for the Schur
-// complement S.
-// Residuals are row-scaled by (tr D / 3)^-1/2: without scaling the stiffest cells dominate the norm and broken cells do
-// not contribute.
+// of its compact matrix. With pressures it is preconditioned by the block triangle [A B; 0 S], these for A and a
+// diagonal for the Schur complement S. Residuals are row-scaled by (tr D / 3)^-1/2: without scaling the stiffest cells
+// dominate the norm and broken cells do not contribute.
 
 #include "solver/linear/fgmres.h"
 #include "solver/momentum/momentum.h"
@@ -32,9 +31,9 @@ class MomentumSolver {
   MomentumSolver(MomentumSolver&&) noexcept;
 
   /// New secant moduli. The preconditioner is rebuilt when the stiffness factor g of some cell has changed by more than
-  /// a factor of 2, or its moduli alone have (a crack that has closed) and the last solve did not converge; the weights
-  /// of the gradients where g has changed by more than a hundredth. Where a `history` is given, its stress replaces
-  /// that of the moduli in every cell.
+  /// a factor of 2, or its moduli alone have (a crack that has closed) and the last solve did not converge. The weights
+  /// of the gradients are renewed where g has changed by more than a hundredth. Where a `history` is given, its stress
+  /// replaces that of the moduli in every cell.
   void set_moduli(const CellField<IsotropicElasticity>& moduli, const CellField<double>& g, HistoryStress history = {});
   /// A stress by the strain, linearised about the displacements u (MomentumOperator::set_law). The next solve rebuilds
   /// the preconditioner if the stiffness of some cell's faces has changed by more than a factor of 2.

@@ -11,9 +11,9 @@
 
 namespace pfdm {
 
-/// A solver that adds to `plain`, a row of linear_solvers(), three kinds of motions: the rotations of inclusions, which
-/// are ten times as stiff as the softest zone or more and touch no boundary; the six rigid motions of parts that split
-/// faces cut off from the boundary; and those of a body that three faces hold.
+/// A solver that adds to `plain`, a row of linear_solvers(), three kinds of motions. These are the rotations of
+/// inclusions, which are ten times as stiff as the softest zone or more and touch no boundary, the six rigid motions of
+/// parts that split faces cut off from the boundary, and those of a body that three faces hold.
 const LinearSolver& with_rigid_modes(const LinearSolver& plain);
 
 }  // namespace pfdm
