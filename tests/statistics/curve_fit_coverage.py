@@ -10,7 +10,6 @@ fits share their runs. KEY may be any value of the case: the truth may have fine
 """
 
 import argparse
-import concurrent.futures
 import json
 import math
 import pathlib
@@ -19,7 +18,6 @@ import shutil
 import subprocess
 import sys
 import tempfile
-import time
 
 
 def arguments():
@@ -31,8 +29,7 @@ def arguments():
     parser.add_argument("--component", default="x", help="of the force")
     parser.add_argument("--spacing", type=float, default=1.0, help="of the measured points [um]")
     parser.add_argument("--first-seed", type=int, default=1, help="of the noise")
-    parser.add_argument("--side-by-side", type=int, default=1,
-                        help="number of fits at a time, each of one thread; the first, alone, has as many threads")
+    parser.add_argument("--threads", type=int, default=1, help="of a fit: so many runs at a time")
     parser.add_argument("--keep", type=pathlib.Path, help="folder for runs and fits, to go on from; default: none")
     return parser.parse_args()
 
@@ -60,19 +57,17 @@ def true_run(options, folder):
     subprocess.run([options.pfdm, "sweep", folder, "--quiet"], check=True)
     (folder / "case.toml").write_text(text, encoding="utf-8")
     table = (folder / "results/sweep.csv").read_text(encoding="utf-8")
-    run = folder / "results" / re.search(r"# run 1: (\S+)", table).group(1)
+    run = folder / "results" / re.search(r"# run 1: ([^\s,]+)", table).group(1)
     rows = [line for line in table.splitlines() if not line.startswith("#")]
     values = dict(zip(rows[0].split(","), map(float, rows[1].split(","))))
     return values, run / "force_displacement.csv"
 
 
-def fit_with_noise(options, folder, curve, seed, threads):
-    """Its fit.json. A fit that wants a run which another one is at breaks off: it goes on later."""
+def fit_with_noise(options, folder, curve, seed):
+    """Its fit.json. All fits have one folder of results, whose runs they share."""
     case = folder / f"seed_{seed}"
     if not case.exists():
         shutil.copytree(options.case, case, ignore=shutil.ignore_patterns("results"))
-        (case / "results").mkdir()
-        (case / "results/runs").symlink_to(folder / "results/runs")
         text = (case / "case.toml").read_text(encoding="utf-8")
         # Profiles and posteriors take runs, and the mesh is that of the truth: neither is counted here.
         text = re.sub('intervals = "(profile|posterior)"', 'intervals = "linear"', re.sub("(?m)^finer = .*$", "", text))
@@ -81,15 +76,11 @@ def fit_with_noise(options, folder, curve, seed, threads):
     subprocess.run([sys.executable, script, curve, f"force_{options.component}_N", "force_N", ", ".join(options.truth),
                     "--spacing", str(options.spacing), "--seed", str(seed),
                     "--output", case / "data/synthetic_force_displacement.csv"], check=True)
-    for _ in range(100):
-        done = subprocess.run([options.pfdm, "fit", case, "--quiet", "--threads", str(threads)], check=False,
-                              capture_output=True, text=True)
-        if done.returncode != 1:
-            break
-        time.sleep(3.0)
+    done = subprocess.run([options.pfdm, "fit", case, "--quiet", "--threads", str(options.threads),
+                           "--output", folder / "results"], check=False, capture_output=True, text=True)
     if done.returncode != 0:
         raise RuntimeError(done.stderr)
-    return json.loads((case / "results/fit.json").read_text(encoding="utf-8"))
+    return json.loads((folder / "results/fit.json").read_text(encoding="utf-8"))
 
 
 class Count:
@@ -129,12 +120,8 @@ def main():
     shutil.copytree(options.case, folder, dirs_exist_ok=True, ignore=shutil.ignore_patterns("results"))
     truth, curve = true_run(options, folder)
     count = Count(truth)
-    seeds = range(options.first_seed, options.first_seed + options.repetitions)
-    count.add(seeds[0], fit_with_noise(options, folder, curve, seeds[0], options.side_by_side))
-    with concurrent.futures.ThreadPoolExecutor(options.side_by_side) as pool:
-        fits = pool.map(lambda seed: fit_with_noise(options, folder, curve, seed, 1), seeds[1:])
-        for seed, fit in zip(seeds[1:], fits):
-            count.add(seed, fit)
+    for seed in range(options.first_seed, options.first_seed + options.repetitions):
+        count.add(seed, fit_with_noise(options, folder, curve, seed))
     count.show()
     if not options.keep:
         shutil.rmtree(folder)
