@@ -4,13 +4,19 @@
 
 namespace pfdm {
 
+std::vector<std::size_t> rows_before_jumps(const SampledCurve& curve, double least_fall) {
+  std::vector<std::size_t> rows;
+  if (curve.y.empty()) return rows;
+  const double largest = std::ranges::max(curve.y);
+  for (std::size_t i = 0; i + 1 < curve.x.size(); ++i)
+    if (curve.y[i] - curve.y[i + 1] > least_fall * largest) rows.push_back(i);
+  return rows;
+}
+
 std::vector<double> jumps_of(const SampledCurve& curve) {
   constexpr double least_fall = 0.1;
   std::vector<double> jumps;
-  if (curve.y.empty()) return jumps;
-  const double largest = std::ranges::max(curve.y);
-  for (std::size_t i = 0; i + 1 < curve.x.size(); ++i)
-    if (curve.y[i] - curve.y[i + 1] > least_fall * largest) jumps.push_back(curve.x[i]);
+  for (const std::size_t row : rows_before_jumps(curve, least_fall)) jumps.push_back(curve.x[row]);
   return jumps;
 }
 

@@ -4,11 +4,16 @@
 
 #include "postproc/curves/comparison.h"
 
+#include <cstddef>
 #include <vector>
 
 namespace pfdm {
 
-/// Where y falls, from one point to the next, by more than a tenth of its largest value: the x before each fall.
+/// Where y falls, from one point to the next, by more than this share of its largest value: the number of the point
+/// before each fall.
+std::vector<std::size_t> rows_before_jumps(const SampledCurve& curve, double least_fall);
+
+/// Likewise by more than a tenth: the x before each fall.
 std::vector<double> jumps_of(const SampledCurve& curve);
 
 /// What takes jumps of one curve to those of another, linear between them and up to both ends, which stay; identity

@@ -79,7 +79,75 @@ MeasuredPoints points_of(const std::vector<const SampledCurve*>& curves, const W
   return measured;
 }
 
+/// For each specimen the curve that its points are compared with.
+ModelCurves moved_to_events(const ModelCurves& models, const MeasuredPoints& measured) {
+  std::size_t n = models.size();
+  for (const auto& point : measured.points) n = std::max(n, point.specimen + 1);
+  ModelCurves moved;
+  for (std::size_t s = 0; s < n; ++s)
+    moved.push_back(with_jumps_as_measured(model_of(models, {.specimen = s}), measured.events, s));
+  return moved;
+}
+
+std::optional<std::vector<double>> pointwise_residuals(const ModelCurves& models, const MeasuredPoints& measured) {
+  std::vector<double> residuals;
+  for (const auto& point : measured.points) {
+    const SampledCurve& model = model_of(models, point);
+    const double slack = rounding * (model.x.back() - model.x.front());
+    if (point.x < model.x.front() - slack || point.x > model.x.back() + slack) return std::nullopt;
+    residuals.push_back((model.at(point.x) - point.y) / measured.scale(point));
+  }
+  return residuals;
+}
+
+std::optional<std::vector<double>> averaged_pointwise(const ModelCurves& models, const MeasuredPoints& measured) {
+  auto residuals = pointwise_residuals(models, measured);
+  if (!residuals) return std::nullopt;
+  for (std::size_t i = 0; i < residuals->size(); ++i) {
+    const auto& point = measured.points[i];
+    const SampledCurve& model = model_of(models, point);
+    const double room = std::min(point.x - model.x.front(), model.x.back() - point.x);
+    const double reach = std::min(spacing_at(measured, i), room);
+    if (reach > 0.0) (*residuals)[i] = (mean_about(model, point.x, reach) - point.y) / measured.scale(point);
+  }
+  return residuals;
+}
+
+/// Calls `take(event, figure)` for each datum, in the order of the residuals.
+template <class Take>
+void for_each_datum(const MeasuredPoints& measured, const Take& take) {
+  for (const MeasuredEvent& event : measured.events)
+    for (const MeasuredFigure& figure : event.figures)
+      if (figure.counts) take(event, figure);
+}
+
+/// `pointwise`: residuals of the points by curves for each specimen.
+template <class Pointwise>
+std::optional<std::vector<double>> with_events(const ModelCurves& models, const MeasuredPoints& measured,
+                                               const Pointwise& pointwise) {
+  if (measured.events.empty()) return pointwise(models, measured);
+  auto residuals = pointwise(moved_to_events(models, measured), measured);
+  if (!residuals) return std::nullopt;
+  for_each_datum(measured, [&](const MeasuredEvent& event, const MeasuredFigure& figure) {
+    const ComputedEvent computed = computed_event(event, model_of(models, {.specimen = event.specimen}));
+    residuals->push_back((computed.of(figure.figure) - figure.value) / figure.deviation);
+  });
+  return residuals;
+}
+
 }  // namespace
+
+void leave_out_near_events(MeasuredPoints& measured) {
+  constexpr double deviations = 3.0;
+  std::erase_if(measured.points, [&](const MeasuredPoints::Point& point) {
+    return std::ranges::any_of(measured.events, [&](const MeasuredEvent& event) {
+      return event.specimen == point.specimen &&
+             std::abs(point.x - event.place) <= deviations * event.deviation_of_place();
+    });
+  });
+  if (measured.points.empty())
+    throw InputError("no measured point lies further than three standard deviations from the events");
+}
 
 void require_deviations(const std::vector<MeasuredCurve>& specimens) {
   for (const MeasuredCurve& specimen : specimens)
@@ -111,27 +179,11 @@ MeasuredPoints points_between(const std::vector<MeasuredCurve>& specimens, doubl
 }
 
 std::optional<std::vector<double>> residuals_of(const ModelCurves& models, const MeasuredPoints& measured) {
-  std::vector<double> residuals;
-  for (const auto& point : measured.points) {
-    const SampledCurve& model = model_of(models, point);
-    const double slack = rounding * (model.x.back() - model.x.front());
-    if (point.x < model.x.front() - slack || point.x > model.x.back() + slack) return std::nullopt;
-    residuals.push_back((model.at(point.x) - point.y) / measured.scale(point));
-  }
-  return residuals;
+  return with_events(models, measured, pointwise_residuals);
 }
 
 std::optional<std::vector<double>> averaged_residuals_of(const ModelCurves& models, const MeasuredPoints& measured) {
-  auto residuals = residuals_of(models, measured);
-  if (!residuals) return std::nullopt;
-  for (std::size_t i = 0; i < residuals->size(); ++i) {
-    const auto& point = measured.points[i];
-    const SampledCurve& model = model_of(models, point);
-    const double room = std::min(point.x - model.x.front(), model.x.back() - point.x);
-    const double reach = std::min(spacing_at(measured, i), room);
-    if (reach > 0.0) (*residuals)[i] = (mean_about(model, point.x, reach) - point.y) / measured.scale(point);
-  }
-  return residuals;
+  return with_events(models, measured, averaged_pointwise);
 }
 
 double rms_residual(const ModelCurves& models, const MeasuredPoints& measured) {
@@ -144,9 +196,9 @@ double rms_residual(const ModelCurves& models, const MeasuredPoints& measured) {
 
 double relative_misfit(const std::vector<double>& residuals, const MeasuredPoints& measured) {
   double sum = 0.0;
-  for (std::size_t i = 0; i < residuals.size(); ++i)
-    sum += std::pow(residuals[i] * measured.scale(measured.points[i]), 2);
-  return std::sqrt(sum / static_cast<double>(residuals.size())) / measured.rms;
+  const std::size_t n = measured.points.size();
+  for (std::size_t i = 0; i < n; ++i) sum += std::pow(residuals[i] * measured.scale(measured.points[i]), 2);
+  return std::sqrt(sum / static_cast<double>(n)) / measured.rms;
 }
 
 std::vector<double> weights_by_scatter(const std::vector<double>& residuals, const MeasuredPoints& measured) {
@@ -177,8 +229,9 @@ std::vector<double> weights_by_scatter(const std::vector<double>& residuals, con
 
 std::vector<std::vector<double>> set_up_errors(const ModelCurves& models, const MeasuredPoints& measured) {
   std::vector<std::vector<double>> columns(5);
+  const ModelCurves moved = measured.events.empty() ? models : moved_to_events(models, measured);
   for (const auto& point : measured.points) {
-    const SampledCurve& model = model_of(models, point);
+    const SampledCurve& model = model_of(moved, point);
     const double low = model.x.front(), high = model.x.back(), step = 2e-3 * (high - low);
     const double scale = measured.scale(point);
     const double x = std::clamp(point.x, low, high), left = std::max(x - step, low), right = std::min(x + step, high);
@@ -186,6 +239,14 @@ std::vector<std::vector<double>> set_up_errors(const ModelCurves& models, const 
     const double effects[] = {1.0, slope, slope * force, force, slope * x};
     for (std::size_t k = 0; k < columns.size(); ++k) columns[k].push_back(effects[k] / scale);
   }
+  for_each_datum(measured, [&](const MeasuredEvent& event, const MeasuredFigure& figure) {
+    const ComputedEvent computed = computed_event(event, model_of(models, {.specimen = event.specimen}));
+    const double force = computed.of(figure.figure), before = computed.force_before;
+    const double of_force[] = {1.0, 0.0, 0.0, force, 0.0};
+    const double of_displacement[] = {0.0, -1.0, -before, 0.0, -computed.displacement};
+    const auto& effects = figure.figure == EventFigure::displacement ? of_displacement : of_force;
+    for (std::size_t k = 0; k < columns.size(); ++k) columns[k].push_back(effects[k] / figure.deviation);
+  });
   return columns;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 // Measured curves point by point, as what a least-squares fit of a computed curve has to meet.
 
+#include "postproc/curves/curve_events.h"
 #include "postproc/curves/measured_curve.h"
 
 #include <cstddef>
@@ -10,7 +11,7 @@
 
 namespace pfdm {
 
-/// The points of some specimens within a range.
+/// The points of some specimens within a range, and events of their curves, which are data as well.
 struct MeasuredPoints {
   struct Point {
     std::size_t specimen = 0;
@@ -22,6 +23,7 @@ struct MeasuredPoints {
   double rms = 0.0;             ///< of y
   /// Of each specimen, where the noise is not known: those with less scatter count more. Empty: all alike.
   std::vector<double> weight{};
+  std::vector<MeasuredEvent> events{};  ///< only where the noise is known
 
   /// That a residual of this point is divided by [as y].
   double scale(const Point& point) const {
@@ -50,8 +52,14 @@ using ModelCurves = std::vector<SampledCurve>;
 /// specimen. `residuals`: of these points.
 std::vector<double> weights_by_scatter(const std::vector<double>& residuals, const MeasuredPoints& measured);
 
+/// Leaves points out that lie within three standard deviations of the displacement of an event of the same specimen:
+/// they are its data already, or on the wrong side of it. Throws InputError if no point is left.
+void leave_out_near_events(MeasuredPoints& measured);
+
 /// Model less measurement at each point, over MeasuredPoints::scale(): its standard deviation, or the rms of all y
-/// where not every specimen has one. Nothing if the model's curve does not reach all points.
+/// where not every specimen has one. With events the model's jumps are moved to where those are measured
+/// (with_jumps_as_measured), and behind the points come the figures of the events that count, over their standard
+/// deviations. Nothing if the model's curve does not reach all points.
 std::optional<std::vector<double>> residuals_of(const ModelCurves& models, const MeasuredPoints& measured);
 inline std::optional<std::vector<double>> residuals_of(const SampledCurve& model, const MeasuredPoints& measured) {
   return residuals_of(ModelCurves{model}, measured);
@@ -65,7 +73,7 @@ std::optional<std::vector<double>> averaged_residuals_of(const ModelCurves& mode
 /// Rms of residuals_of(), not finite where there are none.
 double rms_residual(const ModelCurves& models, const MeasuredPoints& measured);
 
-/// Rms of the differences that residuals_of() stand for, over the rms of all y.
+/// Rms of the differences that residuals_of() stand for at the points, over the rms of all y.
 double relative_misfit(const std::vector<double>& residuals, const MeasuredPoints& measured);
 
 /// What offsets of force and displacement, a compliance in line with the specimen and wrong scales would add to the

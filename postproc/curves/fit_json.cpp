@@ -1,5 +1,6 @@
 #include "postproc/curves/fit_json.h"
 
+#include "postproc/curves/event_json.h"
 #include "postproc/files/atomic_file.h"
 #include "postproc/files/json.h"
 #include "postproc/files/unit_key.h"
@@ -187,6 +188,7 @@ FitReport report_in(const Json& json) {
                              .posterior = posterior_in(json),
                              .sensitivity_file = json.value("sensitivity_file", "")},
                    .experiments = {},
+                   .events = json.contains("events") ? events_in(json.at("events")) : std::vector<FittedEvent>{},
                    .own = {.kind = json.at("kind")}};
   for (const Json& e : json.at("experiments")) report.experiments.push_back(experiment_in(e));
   report.own.json = json_line(json.at(report.own.kind));
@@ -250,6 +252,7 @@ void write_fit_json(const std::filesystem::path& file, const FitReport& report) 
                {"confidence", report.confidence}};
   json.update(to_json(report.found));
   json["experiments"] = to_json(report.experiments);
+  if (!report.events.empty()) json["events"] = to_json(report.events);
   json[report.own.kind] = Json::parse(report.own.json);
   write_file(file, json_text(json));
 }

@@ -94,6 +94,25 @@ struct ExperimentMisfit {
 ExperimentMisfit experiment_misfit(std::string name, std::size_t n_data, const ExperimentMisfit::Absolute& absolute,
                                    std::string curve);
 
+/// An event of a measured curve, and of the fitted one.
+struct FittedEvent {
+  struct Figure {
+    std::string name;                                             ///< "displacement"
+    std::string unit;                                             ///< "m"
+    double measured = std::numeric_limits<double>::quiet_NaN();   ///< NaN: not measured, as its deviation
+    double deviation = std::numeric_limits<double>::quiet_NaN();  ///< standard deviation
+    double computed = 0.0;
+    double residual =
+        std::numeric_limits<double>::quiet_NaN();  ///< computed less measured, in deviations; NaN: no datum
+  };
+  std::string name;  ///< "jump 1"
+  std::string specimen;
+  bool is_found = false;  ///< in the record
+  bool is_there = false;  ///< in the fitted curve; otherwise what is computed stands for it
+  std::vector<Figure> figures{};
+  double figure(const std::string& name, double Figure::*value) const;  ///< NaN if it has none of this name
+};
+
 /// A part of a fit, with some of the parameters and of the data.
 struct FitStage {
   std::string name;
@@ -128,6 +147,7 @@ struct FitReport {
   double confidence = 0.95;  ///< of the intervals
   FitFindings found;
   std::vector<ExperimentMisfit> experiments;
+  std::vector<FittedEvent> events{};  ///< in fit.json only where there are any
   OwnFindings own;
 };
 

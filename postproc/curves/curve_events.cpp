@@ -1,0 +1,206 @@
+#include "postproc/curves/curve_events.h"
+
+#include "physics/quantity_text.h"
+#include "postproc/curves/curve_jumps.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <span>
+
+namespace pfdm {
+namespace {
+
+/// Steps one after the other, in each of which the force falls: rows [before, after].
+struct Fall {
+  std::size_t before = 0, after = 0, steepest = 0;  ///< `steepest`: row before the step that falls most
+};
+
+double fall_behind(const SampledCurve& curve, std::size_t row) { return curve.y[row] - curve.y[row + 1]; }
+
+std::vector<Fall> jumps_in(const SampledCurve& curve, double least_fall) {
+  std::vector<Fall> falls;
+  for (const std::size_t row : rows_before_jumps(curve, least_fall)) {
+    if (falls.empty() || falls.back().after != row) falls.push_back({row, row + 1, row});
+    Fall& fall = falls.back();
+    fall.after = row + 1;
+    if (fall_behind(curve, row) > fall_behind(curve, fall.steepest)) fall.steepest = row;
+  }
+  return falls;
+}
+
+double place_of(const SampledCurve& curve, const Fall& fall) {
+  return 0.5 * (curve.x[fall.steepest] + curve.x[fall.steepest + 1]);
+}
+
+ComputedEvent jump_by(const SampledCurve& curve, const Fall& fall, bool is_there) {
+  return {.is_there = is_there,
+          .before = fall.before,
+          .after = fall.after,
+          .displacement = place_of(curve, fall),
+          .step = is_there ? curve.x[fall.steepest + 1] - curve.x[fall.steepest] : 0.0,
+          .force_before = curve.y[fall.before],
+          .force_after = curve.y[fall.after]};
+}
+
+/// Where there is no jump: the largest fall in one step behind the other jumps, or else the end.
+ComputedEvent instead_of_jump(const SampledCurve& curve, const std::vector<Fall>& jumps) {
+  std::optional<std::size_t> most;
+  for (std::size_t i = jumps.empty() ? 0 : jumps.back().after; i + 1 < curve.x.size(); ++i)
+    if (fall_behind(curve, i) > (most ? fall_behind(curve, *most) : 0.0)) most = i;
+  if (most) return jump_by(curve, {*most, *most + 1, *most}, false);
+  const std::size_t last = curve.x.size() - 1;
+  return {.before = last,
+          .after = last,
+          .displacement = curve.x.back(),
+          .force_before = curve.y.back(),
+          .force_after = curve.y.back()};
+}
+
+ComputedEvent computed_jump(const MeasuredEvent& event, const SampledCurve& curve) {
+  const std::vector<Fall> jumps = jumps_in(curve, event.least_fall);
+  const auto number = static_cast<std::size_t>(event.number.value_or(1));
+  if (number > jumps.size()) return instead_of_jump(curve, jumps);
+  if (event.number) return jump_by(curve, jumps[number - 1], true);
+  const auto distance = [&](const Fall& fall) { return std::abs(place_of(curve, fall) - event.place); };
+  return jump_by(curve, *std::ranges::min_element(jumps, {}, distance), true);
+}
+
+ComputedEvent computed_greatest(const SampledCurve& curve) {
+  const auto row = static_cast<std::size_t>(std::ranges::max_element(curve.y) - curve.y.begin());
+  const std::size_t before = row > 0 ? row - 1 : 0, after = std::min(row + 1, curve.x.size() - 1);
+  return {.is_there = true,
+          .before = row,
+          .after = row,
+          .displacement = curve.x[row],
+          .step = (curve.x[after] - curve.x[before]) / static_cast<double>(std::max(after - before, std::size_t{1})),
+          .force_before = curve.y[row],
+          .force_after = curve.y[row]};
+}
+
+/// A part of a curve without jumps.
+struct Branch {
+  std::span<const double> x, y;
+
+  /// Beyond its ends it goes on with its mean slope over `reach`.
+  double at(double place, double reach) const {
+    if (place < x.front())
+      return y.front() + slope(x.front(), std::min(x.front() + reach, x.back())) * (place - x.front());
+    if (place > x.back()) return y.back() + slope(std::max(x.back() - reach, x.front()), x.back()) * (place - x.back());
+    return inside(place);
+  }
+
+ private:
+  double inside(double place) const {
+    const auto above = std::ranges::upper_bound(x, place);
+    if (above == x.end()) return y.back();
+    const auto i = static_cast<std::size_t>(above - x.begin());
+    return y[i - 1] + (place - x[i - 1]) / (x[i] - x[i - 1]) * (y[i] - y[i - 1]);
+  }
+  double slope(double from, double to) const { return to > from ? (inside(to) - inside(from)) / (to - from) : 0.0; }
+};
+
+/// A jump of the model, rows before and after, and where it was measured.
+struct Pair {
+  std::size_t before = 0, after = 0;
+  double place = 0.0;
+};
+
+/// Rising in both; empty if a jump is not there, or if two are the same or in another order.
+std::vector<Pair> jumps_in_order(const SampledCurve& model, const std::vector<MeasuredEvent>& events,
+                                 std::size_t specimen) {
+  std::vector<Pair> pairs;
+  for (const MeasuredEvent& event : events) {
+    if (event.kind != EventKind::jump || event.specimen != specimen) continue;
+    const ComputedEvent computed = computed_event(event, model);
+    if (!computed.is_there) return {};
+    pairs.push_back({computed.before, computed.after, event.place});
+  }
+  std::ranges::sort(pairs, {}, &Pair::place);
+  for (std::size_t k = 0; k + 1 < pairs.size(); ++k)
+    if (pairs[k].after > pairs[k + 1].before) return {};
+  return pairs;
+}
+
+}  // namespace
+
+std::string_view name_of(EventFigure figure) {
+  switch (figure) {
+    case EventFigure::displacement: return "displacement";
+    case EventFigure::force_before: return "force_before";
+    case EventFigure::force_after: return "force_after";
+    case EventFigure::force: break;
+  }
+  return "force";
+}
+
+std::string_view unit_of(EventFigure figure) { return figure == EventFigure::displacement ? "m" : "N"; }
+
+std::string MeasuredEvent::name() const {
+  if (kind == EventKind::greatest_force) return "greatest force";
+  return number ? fmt::format("jump {}", *number) : fmt::format("jump at {}", quantity_text(place, "m"));
+}
+
+double MeasuredEvent::deviation_of_place() const {
+  const auto figure = std::ranges::find(figures, EventFigure::displacement, &MeasuredFigure::figure);
+  return figure != figures.end() && figure->counts ? figure->deviation : 0.0;
+}
+
+double ComputedEvent::of(EventFigure figure) const {
+  if (figure == EventFigure::displacement) return displacement;
+  return figure == EventFigure::force_after ? force_after : force_before;
+}
+
+ComputedEvent computed_event(const MeasuredEvent& event, const SampledCurve& model) {
+  return event.kind == EventKind::jump ? computed_jump(event, model) : computed_greatest(model);
+}
+
+SampledCurve with_jumps_as_measured(const SampledCurve& model, const std::vector<MeasuredEvent>& events,
+                                    std::size_t specimen) {
+  constexpr double share = 0.02;  // of the curve: the slope at a branch's end
+  const std::vector<Pair> jumps = jumps_in_order(model, events, specimen);
+  if (jumps.empty()) return model;
+  const double reach = share * (model.x.back() - model.x.front());
+  SampledCurve moved{.name = model.name, .x = {}, .y = {}};
+  const auto add = [&](double x, double y) {
+    moved.x.push_back(x);
+    moved.y.push_back(y);
+  };
+  std::size_t first = 0;
+  for (std::size_t k = 0; k <= jumps.size(); ++k) {
+    const std::size_t end = k < jumps.size() ? jumps[k].before + 1 : model.x.size();
+    const Branch branch{.x = std::span(model.x).subspan(first, end - first),
+                        .y = std::span(model.y).subspan(first, end - first)};
+    const double from = k > 0 ? jumps[k - 1].place : -std::numeric_limits<double>::infinity();
+    const double to = k < jumps.size() ? jumps[k].place : std::numeric_limits<double>::infinity();
+    if (k > 0) add(from, branch.at(from, reach));
+    for (std::size_t i = 0; i < branch.x.size(); ++i)
+      if (branch.x[i] > from && branch.x[i] < to) add(branch.x[i], branch.y[i]);
+    if (k < jumps.size()) add(to, branch.at(to, reach));
+    if (k < jumps.size()) first = jumps[k].after;
+  }
+  return moved;
+}
+
+bool has_jumps_as_measured(const SampledCurve& model, const std::vector<MeasuredEvent>& events, std::size_t specimen) {
+  const auto is_jump = [&](const MeasuredEvent& event) {
+    return event.kind == EventKind::jump && event.specimen == specimen;
+  };
+  return std::ranges::none_of(events, is_jump) || !jumps_in_order(model, events, specimen).empty();
+}
+
+SampledCurve up_to(const SampledCurve& curve, double displacement) {
+  if (!(curve.x.back() > displacement) || !(curve.x.front() < displacement)) return curve;
+  SampledCurve part{.name = curve.name, .x = {}, .y = {}};
+  for (std::size_t i = 0; i < curve.x.size() && curve.x[i] < displacement; ++i) {
+    part.x.push_back(curve.x[i]);
+    part.y.push_back(curve.y[i]);
+  }
+  part.x.push_back(displacement);
+  part.y.push_back(curve.at(displacement));
+  return part;
+}
+
+}  // namespace pfdm

@@ -1,0 +1,74 @@
+#pragma once
+// Events of a force-displacement curve as data of their own: a jump, at which the force falls at once, and the greatest
+// force. Pointwise residuals of a curve that jumps are a staircase in the parameters; where it jumps, and between which
+// forces, is not.
+
+#include "postproc/curves/comparison.h"
+
+#include <cstddef>
+#include <limits>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace pfdm {
+
+enum class EventKind { jump, greatest_force };
+
+/// What is measured of an event. A jump has a displacement and the forces before and after it, a greatest force has a
+/// displacement and the force.
+enum class EventFigure { displacement, force_before, force_after, force };
+std::string_view name_of(EventFigure figure);  ///< "force_before"
+std::string_view unit_of(EventFigure figure);  ///< "m", "N"
+
+struct MeasuredFigure {
+  EventFigure figure = EventFigure::displacement;
+  double value = 0.0;
+  double deviation = 0.0;  ///< its standard deviation
+  bool counts = true;      ///< false: it is told, and is no datum
+};
+
+struct MeasuredEvent {
+  EventKind kind = EventKind::jump;
+  std::size_t specimen = 0;
+  std::optional<int> number{};  ///< of a jump, along the curve from 1; none: the one that is nearest to `place`
+  double least_fall = 0.1;      ///< in one step, of the largest force: less is no jump
+  double place = 0.0;           ///< displacement at which it was recorded [m]
+  bool is_found = false;        ///< in the rows of the record; otherwise the case states it
+  std::vector<MeasuredFigure> figures{};
+
+  std::string name() const;  ///< "jump 2", "jump at 155 um", "greatest force"
+  /// Of a displacement that counts; zero without one.
+  double deviation_of_place() const;
+};
+
+struct ComputedEvent {
+  bool is_there = false;
+  std::size_t before = 0, after = 0;  ///< rows of the curve; of a greatest force both its own
+  double displacement = 0.0;
+  double step = 0.0;  ///< between the rows about it [m]: its displacement is a place within; zero if it is not there
+  double force_before = 0.0, force_after = 0.0;  ///< of a greatest force both the force
+
+  double of(EventFigure figure) const;
+};
+
+/// A jump is one step in which the force falls by more than least_fall, or several such steps one after the other; it
+/// lies in the middle of the one that falls most. Without such a step it is where the force falls most in one, beyond
+/// jumps with a smaller number, and where it falls nowhere at the end of the curve: what it says then goes over into
+/// that of a jump where one becomes too small or leaves the curve.
+ComputedEvent computed_event(const MeasuredEvent& event, const SampledCurve& model);
+
+/// The model's curve with its jumps where these are measured. What lies between jumps stays where it is, and goes on
+/// straight to the measured place, with the mean slope of the nearest 2 % of the curve. Unchanged where one of the
+/// jumps is not there, or two of them are the same. Events of other specimens are of no concern.
+SampledCurve with_jumps_as_measured(const SampledCurve& model, const std::vector<MeasuredEvent>& events,
+                                    std::size_t specimen);
+
+/// Whether with_jumps_as_measured() finds all jumps of the specimen, each another one and in the measured order.
+bool has_jumps_as_measured(const SampledCurve& model, const std::vector<MeasuredEvent>& events, std::size_t specimen);
+
+/// Up to this displacement.
+SampledCurve up_to(const SampledCurve& curve, double displacement);
+
+}  // namespace pfdm

@@ -1,0 +1,15 @@
+#pragma once
+// Events in fit.json: what was measured of them, and what the fitted curve has.
+
+#include "postproc/curves/fit_json.h"
+#include "postproc/files/json.h"
+
+#include <vector>
+
+namespace pfdm {
+
+nlohmann::ordered_json to_json(const std::vector<FittedEvent>& events);
+/// Throws as nlohmann's library does.
+std::vector<FittedEvent> events_in(const nlohmann::ordered_json& list);
+
+}  // namespace pfdm

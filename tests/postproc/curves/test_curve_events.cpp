@@ -1,0 +1,153 @@
+#include "postproc/curves/curve_events.h"
+#include "postproc/curves/curve_misfit.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace pfdm::this_file {
+namespace {
+
+using testing::DoubleNear;
+using testing::ElementsAre;
+
+constexpr double step = 0.1, fall = 3.0;
+
+/// Rises with slope 1 up to `jump` (in steps from zero), falls by 3 within the step behind it, and rises with slope 0.5
+/// up to 10 and a little beyond.
+SampledCurve curve_with(double jump) {
+  SampledCurve curve{.name = "computed", .x = {}, .y = {}};
+  const auto force = [&](double x) { return x <= jump ? x : jump - fall + 0.5 * (x - jump); };
+  for (double x = std::fmod(jump, step) - step; x < 10.0 + 2.0 * step; x += step) {
+    curve.x.push_back(x);
+    curve.y.push_back(force(x - 1e-12));
+  }
+  return curve;
+}
+
+MeasuredEvent jump_measured_at(double place, double deviation) {
+  return {.kind = EventKind::jump, .place = place, .figures = {{EventFigure::displacement, place, deviation}}};
+}
+
+TEST(CurveEvents, AreFiguresOfTheComputedCurve) {
+  const SampledCurve curve = curve_with(6.0);
+  const ComputedEvent jump = computed_event(jump_measured_at(5.0, 0.1), curve);
+  EXPECT_TRUE(jump.is_there);
+  EXPECT_NEAR(jump.displacement, 6.0 + step / 2, 1e-9);
+  EXPECT_NEAR(jump.step, step, 1e-9);
+  EXPECT_NEAR(jump.of(EventFigure::force_before), 6.0, 1e-9);
+  EXPECT_NEAR(jump.of(EventFigure::force_after), 3.0 + 0.5 * step, 1e-9);
+  const ComputedEvent greatest = computed_event({.kind = EventKind::greatest_force}, curve);
+  EXPECT_NEAR(greatest.of(EventFigure::force), 6.0, 1e-9);
+  EXPECT_NEAR(greatest.of(EventFigure::displacement), 6.0, 1e-9);
+}
+
+TEST(CurveEvents, HaveTheirNumberOrAreTheNearest) {
+  const SampledCurve curve{.name = "", .x = {0, 1, 2, 3, 4, 5, 6, 7}, .y = {0, 10, 8, 5, 6, 7, 3, 4}};
+  MeasuredEvent event = jump_measured_at(2.6, 0.1);
+  // Falls of 2 and 3 one after the other are one jump, in the middle of the larger.
+  EXPECT_DOUBLE_EQ(computed_event(event, curve).displacement, 2.5);
+  EXPECT_DOUBLE_EQ(computed_event(event, curve).force_before, 10.0);
+  EXPECT_DOUBLE_EQ(computed_event(event, curve).force_after, 5.0);
+  event.place = 4.9;
+  EXPECT_DOUBLE_EQ(computed_event(event, curve).displacement, 5.5);
+  event.number = 1;
+  EXPECT_DOUBLE_EQ(computed_event(event, curve).displacement, 2.5);
+  event.number = 2;
+  EXPECT_DOUBLE_EQ(computed_event(event, curve).displacement, 5.5);
+  event.number = 3;
+  EXPECT_FALSE(computed_event(event, curve).is_there);
+}
+
+TEST(CurveEvents, ThatAreNotThereGoOverIntoThoseThatAre) {
+  // A fall that becomes too small stays where it is; a jump that leaves the curve is at its end.
+  SampledCurve curve = curve_with(6.0);
+  MeasuredEvent event = jump_measured_at(5.0, 0.1);
+  event.least_fall = 0.6;
+  EXPECT_FALSE(computed_event(event, curve).is_there);
+  EXPECT_NEAR(computed_event(event, curve).displacement, 6.0 + step / 2, 1e-9);
+  event.least_fall = 0.1;
+  const ComputedEvent late = computed_event(event, curve_with(10.05)), gone = computed_event(event, curve_with(12.0));
+  EXPECT_TRUE(late.is_there);
+  EXPECT_FALSE(gone.is_there);
+  EXPECT_NEAR(gone.displacement, late.displacement, 2.0 * step);
+  EXPECT_NEAR(gone.force_before, late.force_before, 2.0 * step);
+}
+
+TEST(CurveEvents, MoveTheJumpAndNothingElse) {
+  for (const double place : {5.03, 6.87}) {
+    const SampledCurve model = curve_with(6.0),
+                       moved = with_jumps_as_measured(model, {jump_measured_at(place, 0.1)}, 0);
+    for (const double x : {0.5, 3.0, 5.0}) EXPECT_NEAR(moved.at(x), x, 1e-9);
+    EXPECT_NEAR(moved.at(place - 1e-6), place, 1e-5);
+    for (const double x : {place + 1e-6, 7.0, 9.0}) EXPECT_NEAR(moved.at(x), 3.0 + 0.5 * (x - 6.0), 1e-5);
+    EXPECT_TRUE(std::ranges::is_sorted(moved.x));
+    EXPECT_EQ(moved.x.back(), model.x.back());
+  }
+}
+
+TEST(CurveEvents, LeaveACurveAloneWhoseJumpsAreOthers) {
+  const SampledCurve model = curve_with(6.0);
+  const MeasuredEvent near = jump_measured_at(5.0, 0.1), other = jump_measured_at(8.0, 0.1);
+  EXPECT_EQ(with_jumps_as_measured(model, {near, other}, 0).x, model.x);
+  EXPECT_FALSE(has_jumps_as_measured(model, {near, other}, 0));
+  EXPECT_TRUE(has_jumps_as_measured(model, {near}, 0));
+  EXPECT_EQ(with_jumps_as_measured(model, {near}, 1).x, model.x);
+}
+
+MeasuredPoints points_with(const MeasuredEvent& event) {
+  SampledCurve data = curve_with(6.0);
+  data.deviation.assign(data.x.size(), 0.05);
+  MeasuredPoints points = points_between(std::vector{data}, 0.0, 10.0);
+  points.events = {event};
+  return points;
+}
+
+TEST(CurveEvents, CountBehindThePointsAndInPlaceOfThoseBesideThem) {
+  MeasuredEvent event = jump_measured_at(6.05, 0.06);
+  event.figures.push_back({EventFigure::force_before, 6.1, 0.2});
+  event.figures.push_back({EventFigure::force_after, 3.0, 0.2, false});
+  MeasuredPoints points = points_with(event);
+  const std::size_t all = points.points.size();
+  leave_out_near_events(points);
+  EXPECT_EQ(all - points.points.size(), 4u);  // within 0.18
+  const auto residuals = residuals_of(curve_with(6.3), points).value();
+  ASSERT_EQ(residuals.size(), points.points.size() + 2);
+  EXPECT_NEAR(residuals[residuals.size() - 2], 0.3 / 0.06, 1e-6);
+  EXPECT_NEAR(residuals.back(), 0.2 / 0.2, 1e-6);
+  // Rows on the measured side of the jump are compared with that side of the computed one.
+  const double after = 0.5 * 0.3;  // by which the computed branch lies higher
+  for (std::size_t i = 0; i < points.points.size(); ++i)
+    EXPECT_NEAR(residuals[i], points.points[i].x < 6.05 ? 0.0 : after / 0.05, 1e-6) << points.points[i].x;
+}
+
+// Pointwise the sum of squares is a staircase in the place of the jump; with the event it is a parabola.
+TEST(CurveEvents, MakeTheSumOfSquaresSmooth) {
+  const auto squares = [](double jump, const MeasuredPoints& points) {
+    double sum = 0.0;
+    for (const double r : residuals_of(curve_with(jump), points).value()) sum += r * r;
+    return sum;
+  };
+  MeasuredPoints with = points_with(jump_measured_at(6.05, 0.1));
+  std::erase_if(with.points, [](const auto& point) { return std::fmod(point.x + 1e-6, 0.5) > 0.01; });
+  MeasuredPoints without = with;
+  without.events.clear();
+  leave_out_near_events(with);
+  double roughness = 0.0, rough = 0.0, range = 0.0, wide = 0.0;
+  const double h = 0.013;
+  for (double jump = 5.6; jump < 6.4; jump += h) {
+    const auto bend = [&](const MeasuredPoints& p) {
+      return std::abs(squares(jump + h, p) - 2.0 * squares(jump, p) + squares(jump - h, p));
+    };
+    roughness = std::max(roughness, bend(with));
+    rough = std::max(rough, bend(without));
+    range = std::max(range, squares(jump, with));
+    wide = std::max(wide, squares(jump, without));
+  }
+  EXPECT_LT(roughness / range, 0.02);
+  EXPECT_GT(rough / wide, 0.15);
+}
+
+}  // namespace
+}  // namespace pfdm::this_file
