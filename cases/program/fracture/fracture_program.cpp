@@ -152,6 +152,7 @@ void fit(const FractureProgram& program, Session& session) {
   fit_curve({.file = program.file,
              .settings = *program.fit,
              .specimens = experiment.specimens,
+             .events = experiment.events,
              .straight_from = experiment.stiffness_from,
              .straight_to = experiment.stiffness_to,
              .set_ups = [](const CaseFile& file) { return read_set_ups(file.config.root()); },

@@ -1,5 +1,6 @@
 #include "cases/program/fracture/case/experiment_case.h"
 
+#include "cases/program/fracture/case/event_case.h"
 #include "cases/program/fracture/case/run_keys.h"
 #include "cases/program/input/fields/csv_columns.h"
 
@@ -164,6 +165,7 @@ std::optional<ExperimentSettings> read_experiment(const ConfigTable& root,
   }
   if (settings.specimens.empty())
     throw table.error("no measured curve is named; at least one [[experiment.specimens]] is required");
+  settings.events = read_events(table, settings.specimens);
   for (const ConfigTable& energy : table.tables("energies"))
     settings.energies.push_back(read_energy(energy, case_directory));
   for (const ConfigTable& debonding : table.tables("debonding")) {

@@ -2,6 +2,7 @@
 // Reads [experiment]: the measured curves that a fracture case is compared with.
 
 #include "cases/program/input/config/config.h"
+#include "postproc/curves/curve_events.h"
 #include "postproc/curves/measured_curve.h"
 #include "solver/fracture/model/energy_account.h"
 
@@ -40,7 +41,8 @@ struct ExperimentSettings {
   double stiffness_from = 0.0, stiffness_to = 0.0;  ///< [m]
   std::vector<MeasuredAngle> angles{};              ///< all at the same pole of the same surface
   std::vector<MeasuredEnergy> energies{};
-  ConfigTable where;  ///< for messages
+  std::vector<MeasuredEvent> events{};  ///< of the specimens' curves, with what their set-up adds
+  ConfigTable where;                    ///< for messages
 };
 
 /// The specimens' own curves.

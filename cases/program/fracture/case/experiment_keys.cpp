@@ -1,3 +1,4 @@
+#include "cases/program/fracture/case/event_case.h"
 #include "cases/program/fracture/case/experiment_case.h"
 #include "cases/program/fracture/case/run_keys.h"
 #include "cases/program/input/config/csv_keys.h"
@@ -86,6 +87,7 @@ const KeyTable& experiment_keys() {
              "Displacements between which the initial stiffness is the least-squares slope."},
             {"specimens", tables(specimen_keys), "", "Measured force-displacement curves, one for each specimen."},
             {"debonding", tables(debonding_keys), "none", "Measured debonding angles of a particle."},
+            {"events", tables(event_keys), "none", "Events of the curves, with standard deviations of their own."},
             {"energies", tables(energy_keys), "none", "Energies with which those of the run are compared."}},
            preparation_rows()})};
   return table;

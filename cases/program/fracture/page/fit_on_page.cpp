@@ -38,18 +38,50 @@ std::string posterior_text(const FittedParameter& p) {
                      between_text(p.posterior->lower, p.posterior->upper, p.unit));
 }
 
-Chart curves_chart(const ExperimentMisfit& experiment, const CsvTable& curves) {
+/// Events of the specimen: jumps between two forces, or a point each.
+void mark_events(const std::vector<FittedEvent>& events, const std::string& specimen, const DisplayUnit& x,
+                 const DisplayUnit& y, Chart& chart) {
+  Series measured{.label = "events, measured", .x = {}, .y = {}, .style = SeriesStyle::line_with_points, .colour = 3};
+  Series fitted{.label = "events, fitted", .x = {}, .y = {}, .style = SeriesStyle::line_with_points, .colour = 2};
+  for (const FittedEvent& event : events) {
+    if (event.specimen != specimen) continue;
+    using Figure = FittedEvent::Figure;
+    const auto add = [&](Series& series, double Figure::*value) {
+      const auto known = [&](const std::string& name) {
+        const double of_event = event.figure(name, value);
+        return std::isfinite(of_event) ? of_event : event.figure(name, &Figure::computed);
+      };
+      if (!series.x.empty()) {  // no line from one event to the next
+        series.x.push_back(std::nan(""));
+        series.y.push_back(std::nan(""));
+      }
+      for (const char* force : {"force_before", "force_after", "force"})
+        if (const double at = known(force); std::isfinite(at)) {
+          series.x.push_back(x.factor * known("displacement"));
+          series.y.push_back(y.factor * at);
+        }
+    };
+    add(measured, &Figure::measured);
+    if (event.is_there) add(fitted, &Figure::computed);
+  }
+  for (Series* series : {&measured, &fitted})
+    if (!series->x.empty()) chart.series.push_back(std::move(*series));
+}
+
+Chart curves_chart(const FitReport& fit, const ExperimentMisfit& experiment, const CsvTable& curves) {
   const std::vector<double>&u = curves.column("displacement_m"), &measured = curves.column("measured_force_N"),
         &first = curves.column("first_force_N"), &fitted = curves.column("model_force_N");
   const DisplayUnit x = common_unit({{u}}, "m"), y = common_unit({{measured, fitted}}, "N");
   const std::vector<double> at = in_unit(u, x);
-  return {
+  Chart chart{
       .caption = fmt::format("Fit to \"{}\", rms misfit {:.2g} %", experiment.name, 100.0 * experiment.relative),
       .x = {.title = fmt::format("displacement [{}]", x.name)},
       .y = {.title = fmt::format("force [{}]", y.name)},
       .series = {{.label = "measured", .x = at, .y = in_unit(measured, y), .style = SeriesStyle::points, .colour = 7},
                  {.label = "first guess", .x = at, .y = in_unit(first, y), .style = SeriesStyle::dashed, .colour = 1},
                  {.label = "fitted", .x = at, .y = in_unit(fitted, y), .colour = 0}}};
+  mark_events(fit.events, experiment.name, x, y, chart);
+  return chart;
 }
 
 /// By how much each parameter moves each part of the curve; the table's comments say how far it is moved.
@@ -68,6 +100,24 @@ Chart sensitivity_chart(const CsvTable& table) {
                             .y = in_unit(changes[k], y),
                             .colour = static_cast<int>(k)});
   return chart;
+}
+
+/// What was measured of events, and what the fitted curve has.
+Table events_table(const std::vector<FittedEvent>& events) {
+  Table table{.caption = "Events",
+              .rows = {{"event", "figure", "measured", "standard deviation", "fitted", "residual [deviations]"}},
+              .has_header = true};
+  for (const FittedEvent& event : events)
+    for (const FittedEvent::Figure& f : event.figures) {
+      if (!std::isfinite(f.measured)) continue;
+      std::string words = f.name;
+      std::ranges::replace(words, '_', ' ');
+      table.rows.push_back({fmt::format("{} of {}{}", event.name, event.specimen, event.is_there ? "" : ", not fitted"),
+                            std::move(words), value_text(f.measured, f.unit), value_text(f.deviation, f.unit),
+                            value_text(f.computed, f.unit),
+                            std::isfinite(f.residual) ? fmt::format("{:+.2f}", f.residual) : "no datum"});
+    }
+  return table;
 }
 
 }  // namespace
@@ -92,11 +142,12 @@ Table estimates_table(const FitReport& fit) {
 
 std::vector<PageRow> fit_on_page(const FitReport& fit, const std::filesystem::path& results) {
   std::vector<PageRow> rows{{.blocks = {estimates_table(fit)}}};
+  if (!fit.events.empty()) rows.push_back({.blocks = {events_table(fit.events)}});
   std::vector<PageBlock> charts;
   std::set<std::string> seen;  // one file for all specimens
   for (const ExperimentMisfit& experiment : fit.experiments)
     if (!experiment.curve.empty() && seen.insert(experiment.curve).second)
-      charts.emplace_back(curves_chart(experiment, read_csv(results / experiment.curve)));
+      charts.emplace_back(curves_chart(fit, experiment, read_csv(results / experiment.curve)));
   if (const std::string& file = fit.found.sensitivity_file; !file.empty())
     charts.emplace_back(sensitivity_chart(read_csv(results / file)));
   if (fit.found.posterior)

@@ -59,6 +59,7 @@ CurveFit::CurveFit(const CurveFitJob& job, Session& session)
 
 void CurveFit::run() {
   const Stopwatch watch;
+  widen_events();
   std::vector<FitStage> stages;
   for (const CurveFitStage& stage : job_.settings.stages) stages.push_back(fit_stage(stage));
   const SampledCurve fitted = curve_at(values_, std::nullopt);
@@ -73,6 +74,7 @@ void CurveFit::run() {
                                .specimens = specimens,
                                .runs = counts_of(runs_),
                                .tables = tables_,
+                               .events = fitted_events(fitted),
                                .coarse_runs = coarse_ ? std::optional(counts_of(coarse_runs_)) : std::nullopt,
                                .seconds = watch.seconds()};
   write_curve_fit(job_, found, session_);

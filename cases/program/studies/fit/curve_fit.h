@@ -4,6 +4,7 @@
 #include "cases/program/session/session.h"
 #include "cases/program/studies/fit/curve_fit_case.h"
 #include "cases/program/studies/fit/curve_model.h"
+#include "postproc/curves/curve_events.h"
 #include "postproc/curves/measured_curve.h"
 
 #include <functional>
@@ -23,7 +24,8 @@ struct CurveFitJob {
   const CaseFile& file;
   const CurveFitSettings& settings;
   const std::vector<MeasuredCurve>& specimens;
-  double straight_from, straight_to;  ///< displacements between which the curves should be straight [m]
+  const std::vector<MeasuredEvent>& events;  ///< of the specimens' curves
+  double straight_from, straight_to;         ///< displacements between which the curves should be straight [m]
   /// What the set-up adds to each specimen's curve, as a case says.
   std::function<std::vector<SetUp>(const CaseFile&)> set_ups;
   CurveModel::ReadCurve read_curve;

@@ -47,6 +47,11 @@ class CurveFit {
   std::optional<double> end_of_runs(const CurveFitStage& stage) const;
   /// The same ones with all values of the set-up: the computed curve reaches them with each.
   MeasuredPoints points_of(const CurveFitStage& stage, const SampledCurve& curve);
+  /// Takes into the standard deviations of the events' displacements what load steps leave open of the computed ones.
+  void widen_events();
+  /// The events of the stage, in place of the points beside them; in curve_fit_events.cpp. `latest`: the last
+  /// displacement of each specimen that computed curves reach.
+  void add_events(const CurveFitStage& stage, const std::vector<double>& latest, MeasuredPoints& points);
   /// `model`: the case, or one with another law.
   FitProblem problem_of(const CurveFitStage& stage, const MeasuredPoints& points, std::optional<double> until,
                         CurveModel& model);
@@ -91,6 +96,12 @@ class CurveFit {
   void suspect_preload(FitFindings& found) const;
   /// Reasons: straight parts beside the computed one, also where the residuals are too few to show it.
   std::vector<std::string> missed_origins(const SampledCurve& fitted) const;
+  /// Reasons where the fitted curve lacks an event, or has it elsewhere; in curve_fit_events.cpp.
+  void doubt_events(const DoneStage& done, const SampledCurve& fitted, FitFindings& found);
+  /// Whether the case that [fit] `finer` makes has the event where it was measured.
+  bool finer_meets(const DoneStage& done, const MeasuredEvent& event, const MeasuredFigure& figure);
+  /// What the fitted curve has of all events.
+  std::vector<FittedEvent> fitted_events(const SampledCurve& fitted) const;
   /// The residuals of the stage that ends the fit, of the case that [fit] `finer` makes.
   std::optional<FinerModel> on_finer_model(const DoneStage& done);
   /// Intervals by profile likelihood of the parameters that no later stage estimates anew.
@@ -118,6 +129,7 @@ class CurveFit {
   JumpAlignment alignment_;                 // of its curves
   std::vector<double> first_;               // of all parameters, the case's own [SI]
   std::vector<double> values_;              // of all parameters, as known so far [SI]
+  std::vector<MeasuredEvent> events_;       // with what load steps leave open
   std::vector<bool> is_of_set_up_;          // parameters of the measured curves: no run depends on them
   std::vector<bool> is_estimated_;          // by an earlier stage
   std::vector<bool> is_doubtful_;           // estimated last by a stage that is not sound

@@ -31,6 +31,7 @@ void CurveFit::doubt(const DoneStage& done, bool model_error, FitFindings& found
   const bool is_tried = model_error && found.verdict != Verdict::failed;
   if (!(is_tried && suspect_law_or_set_up(done, fitted, !origins.empty(), found)))
     for (const std::string& origin : origins) question(found, origin);
+  doubt_events(done, fitted, found);
   suspect_preload(found);
 }
 
@@ -151,7 +152,12 @@ std::vector<ResidualSeries> CurveFit::series_of(const MeasuredPoints& points,
   std::vector<ResidualSeries> result;
   for (const MeasuredCurve& specimen : job_.specimens)
     result.push_back({.name = specimen.curve.name, .along = "displacement", .values = {}});
-  for (std::size_t i = 0; i < residuals.size(); ++i) result[points.points[i].specimen].values.push_back(residuals[i]);
+  const std::size_t n = points.points.size();
+  for (std::size_t i = 0; i < n; ++i) result[points.points[i].specimen].values.push_back(residuals[i]);
+  if (residuals.size() > n)
+    result.push_back({.name = "the events",
+                      .along = "displacement",
+                      .values = {residuals.begin() + static_cast<std::ptrdiff_t>(n), residuals.end()}});
   return result;
 }
 

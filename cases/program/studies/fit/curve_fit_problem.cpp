@@ -64,11 +64,13 @@ MeasuredPoints CurveFit::points_of(const CurveFitStage& stage, const SampledCurv
   for (const SetUp& set_up : least_set_ups()) latest.push_back(as_recorded(curve, set_up).x.back());
   MeasuredPoints points = job_.settings.where.in_context(
       [&] { return points_between(job_.specimens, std::max(stage.from, curve.x.front()), stage.to, latest); });
-  session_.log.say(fmt::format("stage \"{}\": {} parameters, {} measured points from {}", stage.name,
+  add_events(stage, latest, points);
+  session_.log.say(fmt::format("stage \"{}\": {} parameters, {} measured points from {}{}", stage.name,
                                stage.parameters.size(), points.points.size(),
                                quantities_text({std::ranges::min(points.points, {}, &MeasuredPoints::Point::x).x,
                                                 std::ranges::max(points.points, {}, &MeasuredPoints::Point::x).x},
-                                               "m", " to ")));
+                                               "m", " to "),
+                               points.events.empty() ? "" : fmt::format(", events: {}", points.events.size())));
   return points;
 }
 
@@ -87,7 +89,9 @@ FitProblem CurveFit::problem_of(const CurveFitStage& stage, const MeasuredPoints
     return [=, this, &stage, &points, &model](std::span<const double> values) {
       const std::vector<double> all = with_stage(stage, values);
       const auto curve = model.respond(all, until);
-      return curve ? compared(as_recorded_by_all(*curve, all), points) : std::nullopt;
+      if (!curve) return std::optional<std::vector<double>>{};
+      const bool is_cut = until && !points.events.empty();  // what a longer run has of events depends on chance
+      return compared(as_recorded_by_all(is_cut ? up_to(*curve, *until) : *curve, all), points);
     };
   };
   problem.residuals = residuals_by(
@@ -107,7 +111,7 @@ FitSettings CurveFit::settings_of(const CurveFitStage& stage, const MeasuredPoin
   settings.starts = stage.starts;
   settings.screened = stage.screened;
   settings.exactness = exactness;
-  settings.cost_tolerance = least_change / static_cast<double>(points.points.size());
+  settings.cost_tolerance = least_change / static_cast<double>(points.points.size() + points.events.size());
   settings.iterated = [this, &stage](const FitIteration& iteration) {
     session_.log.say(fmt::format("  rms residual {:.5g} at {}", iteration.rms,
                                  model_.shown(with_stage(stage, iteration.parameters))));

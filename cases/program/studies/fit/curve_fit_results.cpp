@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 namespace pfdm {
@@ -114,6 +115,15 @@ void say_estimates(const FitFindings& whole, const std::vector<CaseParameter>& p
                           whole.correlation(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j))));
 }
 
+void say_event(const FittedEvent& event, Log& log) {
+  for (const FittedEvent::Figure& f : event.figures)
+    if (std::isfinite(f.residual))
+      log.say(fmt::format("{} of {}: {} {}, measured {}, {:+.2f} standard deviations{}", event.name, event.specimen,
+                          f.name == "displacement" ? "displacement" : "force", quantity_text(f.computed, f.unit),
+                          quantity_text(f.measured, f.unit), f.residual,
+                          event.is_there ? "" : " (it is not in the fitted curve)"));
+}
+
 std::string counts_text(const RunCounts& runs) {
   return fmt::format("{} runs made, {} reused, {} of them did not converge", runs.made, runs.reused, runs.failed);
 }
@@ -146,6 +156,7 @@ void write_curve_fit(const CurveFitJob& job, const CurveFitFindings& found, Sess
       .wall_seconds = found.seconds,
       .found = merged(found.stages),
       .experiments = misfits(found),
+      .events = found.events,
       .own = own_findings(FractureFindings{.earlier_stages = {found.stages.begin(), found.stages.end() - 1},
                                            .runs = found.runs,
                                            .coarse_runs = found.coarse_runs})};
@@ -163,6 +174,7 @@ void write_curve_fit(const CurveFitJob& job, const CurveFitFindings& found, Sess
   for (const ExperimentMisfit& e : report.experiments)
     session.log.say(fmt::format("rms difference from {}: {}, {:.2f} % of its rms force", e.name,
                                 quantity_text(e.absolute->rms, "N"), 100.0 * e.relative));
+  for (const FittedEvent& event : report.events) say_event(event, session.log);
   session.log.say(fmt::format("{}{}; {:.1f} s; {}", counts_text(found.runs),
                               found.coarse_runs ? ", of the coarse case " + counts_text(*found.coarse_runs) : "",
                               found.seconds, report.found.message));

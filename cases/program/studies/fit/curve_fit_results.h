@@ -20,7 +20,8 @@ struct CurveFitFindings {
   std::vector<MeasuredCurve> specimens;  ///< with the set-up as estimated
   RunCounts runs;
   const std::map<std::string, CsvTable>& tables;  ///< by the names of their files
-  std::optional<RunCounts> coarse_runs;           ///< with [fit] `coarse`
+  std::vector<FittedEvent> events;
+  std::optional<RunCounts> coarse_runs;  ///< with [fit] `coarse`
   double seconds = 0.0;
 };
 

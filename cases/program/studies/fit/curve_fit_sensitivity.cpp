@@ -47,7 +47,7 @@ std::string CurveFit::add_sensitivity(const DoneStage& done, const FitFindings& 
     const Move move = move_of(found.parameters[k], std::sqrt(done.result.covariance(column, column)));
     table.comments.push_back(move.told);
     std::vector<double> changes;
-    for (Eigen::Index i = 0; i < done.result.derivatives.rows(); ++i) {
+    for (Eigen::Index i = 0; i < std::ssize(done.points.points); ++i) {
       const MeasuredPoints::Point& point = done.points.points[i];
       if (point.specimen == 0)
         changes.push_back(move.by * done.points.scale(point) * done.result.derivatives(i, column));

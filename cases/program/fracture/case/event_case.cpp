@@ -1,0 +1,159 @@
+#include "cases/program/fracture/case/event_case.h"
+
+#include "cases/program/input/config/key_member.h"
+#include "physics/quantity_text.h"
+#include "postproc/curves/recorded_jumps.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string>
+
+namespace pfdm {
+namespace {
+
+constexpr Range number_range{1.0, 1000.0, false, "between 1 and 1000"};
+constexpr Range fall_range{0.0, 1.0, true, "above 0 and below 1"};
+
+KeyTable measured_keys(std::string_view name, const Dimension& due) {
+  using namespace keys;
+  return {.name = name,
+          .sentence = "A measured value with its uncertainty.",
+          .keys = {{"value", quantity(due), "", "Value that was measured, as the record has it."},
+                   {"deviation", quantity(due, range::positive), "", "Standard deviation of the value."}}};
+}
+const KeyTable& measured_length_keys() {
+  static const KeyTable table = measured_keys("measured length", dimension::length);
+  return table;
+}
+const KeyTable& measured_force_keys() {
+  static const KeyTable table = measured_keys("measured force", dimension::force);
+  return table;
+}
+
+constexpr EventFigure figures_of_jump[] = {EventFigure::displacement, EventFigure::force_before,
+                                           EventFigure::force_after};
+constexpr EventFigure figures_of_greatest[] = {EventFigure::displacement, EventFigure::force};
+
+std::size_t read_specimen_of(const ConfigTable& table, const std::vector<MeasuredCurve>& specimens) {
+  const auto named = table.find("specimen");
+  if (!named) {
+    if (specimens.size() == 1) return 0;
+    throw table.error("there are several specimens: say with \"specimen\" whose event it is");
+  }
+  std::vector<std::string> names;
+  for (const MeasuredCurve& specimen : specimens) names.push_back(specimen.curve.name);
+  return static_cast<std::size_t>(std::ranges::find(names, named->one_of(names, "specimen")) - names.begin());
+}
+
+void read_figures(const ConfigTable& table, MeasuredEvent& event) {
+  const auto read = [&](const auto& figures) {
+    for (const EventFigure figure : figures) {
+      if (!table.has(name_of(figure))) continue;
+      const ConfigTable measured = table.table(name_of(figure));
+      event.figures.push_back(
+          {.figure = figure, .value = measured.quantity("value"), .deviation = measured.quantity("deviation")});
+    }
+  };
+  event.kind == EventKind::jump ? read(figures_of_jump) : read(figures_of_greatest);
+}
+
+std::string number_text(const MeasuredEvent& event, std::size_t n) {
+  if (!event.number || n == 0) return "no such jump";
+  return fmt::format("{} such jump{}, no jump {}", n, n == 1 ? "" : "s", *event.number);
+}
+
+/// Of the rows of the record; forces are told alone, for the rows on both sides are data already.
+void find_jump(const ConfigTable& table, const SampledCurve& record, MeasuredEvent& event) {
+  const std::vector<RecordedJump> jumps = recorded_jumps(record, event.least_fall);
+  const std::size_t wanted = static_cast<std::size_t>(event.number.value_or(1));
+  if (jumps.size() < wanted)
+    throw table.error(fmt::format(
+        "\"{}\" has {}: its force falls by more than {:g} % of the largest (least_fall), and by more than four "
+        "standard errors of lines through eight rows before and after; state the jump's displacement",
+        record.name, number_text(event, jumps.size()), 100.0 * event.least_fall));
+  const auto fall = [](const RecordedJump& jump) { return jump.force_before - jump.force_after; };
+  const RecordedJump& jump = event.number ? jumps[wanted - 1] : *std::ranges::max_element(jumps, {}, fall);
+  event.is_found = true;
+  event.place = jump.displacement;
+  event.figures = {{.figure = EventFigure::displacement, .value = jump.displacement, .deviation = jump.deviation},
+                   {EventFigure::force_before, jump.force_before, jump.deviation_before, false},
+                   {EventFigure::force_after, jump.force_after, jump.deviation_after, false}};
+}
+
+/// Where the record has it.
+void place_event(const ConfigTable& table, const SampledCurve& record, MeasuredEvent& event) {
+  const auto displacement = std::ranges::find(event.figures, EventFigure::displacement, &MeasuredFigure::figure);
+  if (displacement != event.figures.end()) {
+    event.place = displacement->value;
+    if (event.place < record.x.front() || event.place > record.x.back())
+      throw table.at("displacement")
+          .error(fmt::format("\"{}\" was recorded between {} and {}", record.name, quantity_text(record.x.front(), "m"),
+                             quantity_text(record.x.back(), "m")));
+  } else if (event.kind == EventKind::jump) {
+    throw table.error("a jump with forces needs its displacement, too; without any of them it is found in the record");
+  } else {
+    event.place = record.x[static_cast<std::size_t>(std::ranges::max_element(record.y) - record.y.begin())];
+  }
+}
+
+MeasuredEvent read_event(const ConfigTable& table, const std::vector<MeasuredCurve>& specimens) {
+  MeasuredEvent event{.specimen = read_specimen_of(table, specimens)};
+  read_stored(table, event);
+  if (table.choice("event") == "greatest_force") event.kind = EventKind::greatest_force;
+  const SampledCurve& record = specimens[event.specimen].curve;
+  read_figures(table, event);
+  if (!event.figures.empty())
+    place_event(table, record, event);
+  else if (event.kind == EventKind::jump)
+    find_jump(table, record, event);
+  else
+    throw table.error("state \"force\", \"displacement\" or both: the largest of noisy rows is larger than the force");
+  return event;
+}
+
+}  // namespace
+
+const KeyTable& event_keys() {
+  using namespace keys;
+  static const KeyTable table{
+      .name = "experiment.events[]",
+      .sentence = "An event of a measured curve, which pfdm fit meets beside the curve.",
+      .keys = {{"event", choice("event of a curve", {"jump", "greatest_force"}), "",
+                "What happens: the force falls at once, or is the greatest."},
+               {"specimen", text("name"), "the only one", "Specimen in whose test it happened."},
+               stored<&MeasuredEvent::number>("number", whole(number_range),
+                                              "Number of the jump along the curve, measured and computed.",
+                                              "the nearest one; of those to be found the largest"),
+               stored<&MeasuredEvent::least_fall>(
+                   "least_fall", number(fall_range),
+                   "Share of the largest force by which the force falls in one step of a jump."),
+               {"displacement", keys::table(measured_length_keys), "found in the record",
+                "Displacement of the event, with its standard deviation."},
+               {"force_before", keys::table(measured_force_keys), "no datum", "Force right before the jump.", "jump"},
+               {"force_after", keys::table(measured_force_keys), "no datum", "Force right after the jump.", "jump"},
+               {"force", keys::table(measured_force_keys), "no datum", "The greatest force.", "greatest_force"}},
+      .decided_by = "event"};
+  return table;
+}
+
+std::vector<MeasuredEvent> read_events(const ConfigTable& experiment, const std::vector<MeasuredCurve>& specimens) {
+  std::vector<MeasuredEvent> events;
+  for (const ConfigTable& table : experiment.tables("events")) {
+    for (const MeasuredCurve& specimen : specimens)
+      if (specimen.curve.deviation.empty())
+        throw table.error(fmt::format(
+            "events have standard deviations of their own, and \"{}\" has none: with what weight they count beside its "
+            "rows is not known; give [[experiment.specimens]] deviation",
+            specimen.curve.name));
+    events.push_back(read_event(table, specimens));
+    if (events.back().kind == EventKind::jump)
+      for (std::size_t k = 0; k + 1 < events.size(); ++k)
+        if (events[k].kind == EventKind::jump && events[k].specimen == events.back().specimen &&
+            (events[k].place == events.back().place || (events[k].number && events[k].number == events.back().number)))
+          throw table.error("this jump is named twice");
+  }
+  return events;
+}
+
+}  // namespace pfdm

@@ -1,0 +1,216 @@
+// Fits in which a jump of the force is a datum beside the curve.
+
+#include "cases/program/fracture/page/fracture_report.h"
+#include "postproc/files/csv_table.h"
+#include "tests/cases/bar_fit.h"
+#include "tests/cases/page_data.h"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <random>
+
+namespace pfdm::this_file {
+namespace {
+
+using ::testing::HasSubstr;
+
+constexpr double true_modulus = 33e9, true_toughness = 121.0;
+constexpr double spacing = 0.25e-6, load_step = 0.15e-6;
+
+std::string fine_bar(const std::string& increment) {
+  const std::string bar = replaced(bar_case(), "initial_increment = 0.1", "initial_increment = " + increment);
+  return replaced(bar, "\nmaximum_increment = 0.1", "\nmaximum_increment = " + increment);
+}
+
+const std::string toughness_bounds = "bounds = [\"20 J/m^2\", \"500 J/m^2\"]";
+
+std::string event_fit(const std::string& event = "event = \"jump\"\nleast_fall = 0.3\n") {
+  std::string fit = replaced(bar_fit, "force = { column = \"force_N\" }\n",
+                             "force = { column = \"force_N\" }\ndeviation = { column = \"deviation_N\" }\n");
+  fit = replaced(fit, "[fit]\n", "[[experiment.events]]\n" + event + "[fit]\nstep = 0.05\ntolerance = 0.002\n");
+  return fine_bar("0.01") + fit;
+}
+
+/// Runs of the bar with the true values in steps a fifth as long; rows with noise of 2 % of the largest force.
+class BrokenBar {
+ public:
+  BrokenBar() {
+    const std::string bar = replaced(replaced(fine_bar("0.002"), "30 GPa", "33 GPa"), "100 J/m^2", "121 J/m^2");
+    const TemporaryCase truth(replaced(bar, "80 J/m^2", "96.8 J/m^2"));
+    if (run({"run", truth.path().string(), "--quiet"}).status != 0) throw std::logic_error("the bar's run fails");
+    const CsvTable curve = read_csv(truth.results() / "force_displacement.csv");
+    const SampledCurve computed{.name = "", .x = curve.column("displacement_m"), .y = curve.column("force_x_N")};
+    const double deviation = 0.02 * std::ranges::max(computed.y);
+    std::mt19937 engine(7);
+    std::normal_distribution<double> noise(0.0, deviation);
+    std::vector<double> u, force;
+    for (int i = 0; spacing * i <= computed.x.back(); ++i) {
+      u.push_back(spacing * i);
+      force.push_back(computed.at(u.back()) + noise(engine));
+    }
+    rows.comments = {"SYNTHETIC, made by the test"};
+    rows.add("displacement_m", u);
+    rows.add("force_N", force);
+    rows.add("deviation_N", std::vector(u.size(), deviation));
+    for (std::size_t i = 0; i + 1 < computed.x.size(); ++i)
+      if (computed.y[i] - computed.y[i + 1] > 0.3 * std::ranges::max(computed.y)) jump = computed.x[i];
+  }
+  void write(const TemporaryCase& directory) const { write_csv(directory.path() / "data.csv", rows); }
+
+  CsvTable rows;
+  double jump = 0.0;  ///< [m]
+};
+
+const BrokenBar& broken_bar() {
+  static const BrokenBar bar;
+  return bar;
+}
+
+/// Of the fit to its rows.
+nlohmann::json fitted(const TemporaryCase& directory) {
+  broken_bar().write(directory);
+  const Outcome outcome = run({"fit", directory.path().string()});
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  return fit_in(directory.results());
+}
+
+const nlohmann::json& figure(const nlohmann::json& event, const std::string& name) {
+  for (const auto& entry : event["figures"])
+    if (entry["name"] == name) return entry;
+  throw std::logic_error("no figure " + name);
+}
+
+// Equilibrium of the bar depends on toughness and modulus by u (E/Gc)^(1/2) alone: where it jumps gives Gc/E, to twice
+// the relative error of the displacement, and the slope gives E.
+TEST(EventFit, MeetsAJumpThatIsFoundInTheRecord) {
+  const TemporaryCase directory(event_fit());
+  const auto fit = fitted(directory);
+  EXPECT_EQ(fit["verdict"], "sound") << fit["reasons"];
+  ASSERT_EQ(fit["events"].size(), 1u);
+  const auto& event = fit["events"][0];
+  EXPECT_TRUE(event["found_in_record"].get<bool>());
+  EXPECT_TRUE(event["in_computed_curve"].get<bool>());
+  const auto& displacement = figure(event, "displacement");
+  const double deviation = std::hypot(spacing, load_step) / std::sqrt(12.0);
+  EXPECT_NEAR(displacement["measured"].get<double>(), broken_bar().jump, 0.6 * spacing);
+  EXPECT_NEAR(displacement["deviation"].get<double>(), deviation, 0.02 * deviation);
+  EXPECT_LT(std::abs(displacement["residual"].get<double>()), 2.0);
+  EXPECT_TRUE(figure(event, "force_before")["residual"].is_null());
+  const auto &modulus = parameter(fit, modulus_key), &toughness = parameter(fit, toughness_key);
+  const double error_of_modulus = modulus["standard_error"].get<double>() / true_modulus;
+  const double due = std::hypot(2.0 * deviation / broken_bar().jump, error_of_modulus);
+  const double stated = toughness["standard_error"].get<double>() / true_toughness;
+  EXPECT_GT(stated, 0.3 * due);  // what the curve bends before it jumps tells of Gc, too
+  EXPECT_LT(stated, 1.2 * due);
+  EXPECT_NEAR(modulus["estimate"].get<double>(), true_modulus, 2.5 * error_of_modulus * true_modulus);
+  EXPECT_NEAR(toughness["estimate"].get<double>(), true_toughness, 2.5 * stated * true_toughness);
+  // The rows on both sides of it are left out: half a spacing away.
+  EXPECT_EQ(fit["residuals"].get<std::size_t>(), broken_bar().rows.column("force_N").size() - 2 + 1);
+}
+
+TEST(EventFit, IsMarkedOnThePage) {
+  const TemporaryCase directory(event_fit());
+  fitted(directory);
+  const Outcome outcome = run({"report", directory.path().string()});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const std::string page = content_of(directory.results() / "report/index.html");
+  for (const char* part : {"events, measured", "events, fitted", "jump at ", "residual [deviations]"})
+    EXPECT_THAT(page, HasSubstr(part));
+}
+
+TEST(EventFit, HasAllThatOtherFitsHave) {
+  std::string text = event_fit(
+      "event = \"jump\"\nleast_fall = 0.3\nnumber = 1\n[[experiment.events]]\nevent = "
+      "\"greatest_force\"\nforce = { value = \"19.3 N\", deviation = \"0.2 N\" }\n");
+  text = replaced(text, "[fit]\n",
+                  "[fit]\nintervals = \"posterior\"\nfiner = { \"loading.maximum_increment\" = 0.005, "
+                  "\"loading.initial_increment\" = 0.005 }\n"
+                  "coarse = { \"loading.maximum_increment\" = 0.02, \"loading.initial_increment\" = 0.02 }\n");
+  const TemporaryCase directory(text);
+  const auto fit = fitted(directory);
+  ASSERT_EQ(fit["verdict"].get<std::string>().substr(0, 5), "sound") << fit["reasons"];
+  EXPECT_EQ(fit["events"].size(), 2u);
+  EXPECT_EQ(fit["events"][0]["name"], "jump 1");
+  EXPECT_FALSE(fit["events"][1]["found_in_record"].get<bool>());
+  for (const char* key : {modulus_key, toughness_key}) {
+    const auto& p = parameter(fit, key);
+    const double width = p["upper"].get<double>() - p["lower"].get<double>();
+    EXPECT_NEAR(p["posterior"]["median"].get<double>(), p["estimate"].get<double>(), 0.4 * width) << key;
+    EXPECT_TRUE(p.contains("moved_by_finer"));
+  }
+  EXPECT_TRUE(std::filesystem::exists(directory.results() / "fit_sensitivity.csv"));
+}
+
+TEST(EventFit, IsNotSoundWithoutTheEvent) {
+  // So tough that the bar does not break within the run.
+  std::string text = replaced(event_fit(), toughness_bounds, "bounds = [\"320 J/m^2\", \"450 J/m^2\"]");
+  text = replaced(replaced(text, "\"100 J/m^2\"", "\"350 J/m^2\""), "\"80 J/m^2\"", "\"280 J/m^2\"");
+  const TemporaryCase directory(text);
+  const auto fit = fitted(directory);
+  EXPECT_FALSE(fit["verdict"].get<std::string>().starts_with("sound"));
+  EXPECT_THAT(fit["reasons"].dump(), HasSubstr("the fitted curve lacks jump at "));
+  EXPECT_FALSE(fit["events"][0]["in_computed_curve"].get<bool>());
+  EXPECT_GT(figure(fit["events"][0], "displacement")["residual"].get<double>(), 10.0);
+}
+
+TEST(EventFit, IsNotSoundWithAnEventElsewhere) {
+  const TemporaryCase directory(event_fit(
+      "event = \"jump\"\nleast_fall = 0.3\ndisplacement = { value = \"11.875 um\", deviation = \"0.05 um\" }\n"
+      "force_before = { value = \"8 N\", deviation = \"0.2 N\" }\n"));
+  const auto fit = fitted(directory);
+  EXPECT_EQ(fit["verdict"], "questionable");
+  EXPECT_THAT(fit["reasons"].dump(), HasSubstr("has a computed force before of "));
+}
+
+class BadEvent : public testing::TestWithParam<BadInput> {};
+
+TEST_P(BadEvent, IsRefusedWithOneMessage) {
+  const TemporaryCase directory(replaced(event_fit(), GetParam().good, GetParam().bad));
+  broken_bar().write(directory);
+  expect_refused(directory, GetParam());
+}
+
+constexpr const char* good = "event = \"jump\"\nleast_fall = 0.3\n";
+const BadInput bad_events[] = {
+    {"no_deviation",
+     "deviation = { column = \"deviation_N\" }\n",
+     "",
+     {"[experiment.events]", "events have standard deviations of their own, and \"one\" has none"}},
+    {"unknown_event",
+     good,
+     "event = \"bang\"\n",
+     {"\"bang\" is not an event of a curve (allowed: jump, greatest_force)"}},
+    {"force_of_a_jump",
+     good,
+     "event = \"jump\"\nforce = { value = \"1 N\", deviation = \"1 N\" }\n",
+     {"[experiment.events]", "\"force\""}},
+    {"no_displacement",
+     good,
+     "event = \"jump\"\nforce_after = { value = \"1 N\", deviation = \"1 N\" }\n",
+     {"a jump with forces needs its displacement, too"}},
+    {"beyond_the_record",
+     good,
+     "event = \"jump\"\ndisplacement = { value = \"1 mm\", deviation = \"1 um\" }\n",
+     {"[experiment.events] displacement: \"one\" was recorded between 0 m and 15 um"}},
+    {"not_in_the_record",
+     good,
+     "event = \"jump\"\nnumber = 3\n",
+     {"\"one\" has 1 such jump, no jump 3: its force falls by more than 10 % of the largest"}},
+    {"greatest_force_of_noise", good, "event = \"greatest_force\"\n", {"state \"force\", \"displacement\" or both"}},
+    {"fall_of_everything", good, "event = \"jump\"\nleast_fall = 1.0\n", {"least_fall: 1 must be above 0 and below 1"}},
+    {"no_specimen", good, "event = \"jump\"\nspecimen = \"two\"\n", {"\"two\" is not a specimen (allowed: one)"}},
+    {"named_twice",
+     good,
+     "event = \"jump\"\nleast_fall = 0.3\n[[experiment.events]]\nevent = \"jump\"\nleast_fall = 0.3\n",
+     {"this jump is named twice"}},
+    {"deviation_of_zero",
+     good,
+     "event = \"jump\"\ndisplacement = { value = \"10 um\", deviation = \"0 um\" }\n",
+     {"deviation: \"0 um\" must be positive"}},
+};
+INSTANTIATE_TEST_SUITE_P(Inputs, BadEvent, testing::ValuesIn(bad_events),
+                         [](const auto& test) { return std::string(test.param.name); });
+
+}  // namespace
+}  // namespace pfdm::this_file
