@@ -7,11 +7,17 @@
 
 namespace pfdm {
 
+/// Between which points of a curve something happened: the last one before and the first one after it.
+struct Between {
+  double x_before = 0.0, y_before = 0.0, x_after = 0.0, y_after = 0.0;
+};
+
 /// y over x, linear in between; x does not fall. SI.
 struct SampledCurve {
   std::string name;
   std::vector<double> x, y;
-  std::vector<double> deviation{};  ///< standard deviation of y; empty if it is not known
+  std::vector<double> deviation{};           ///< standard deviation of y; empty if it is not known
+  std::optional<Between> first_debonding{};  ///< of a computed curve; nothing where nothing debonds, or it is not known
 
   /// At x, which lies in the curve's range.
   double at(double x) const;

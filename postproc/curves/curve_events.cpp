@@ -13,6 +13,16 @@
 namespace pfdm {
 namespace {
 
+/// What stands for an event that is nowhere.
+ComputedEvent end_of(const SampledCurve& curve) {
+  const std::size_t last = curve.x.size() - 1;
+  return {.before = last,
+          .after = last,
+          .displacement = curve.x.back(),
+          .force_before = curve.y.back(),
+          .force_after = curve.y.back()};
+}
+
 /// Steps one after the other, in each of which the force falls: rows [before, after].
 struct Fall {
   std::size_t before = 0, after = 0, steepest = 0;  ///< `steepest`: row before the step that falls most
@@ -35,12 +45,18 @@ double place_of(const SampledCurve& curve, const Fall& fall) {
   return 0.5 * (curve.x[fall.steepest] + curve.x[fall.steepest + 1]);
 }
 
+/// A step that a compliance of the set-up has taken back is as long as the one before.
+double step_behind(const SampledCurve& curve, std::size_t row) {
+  const double step = curve.x[row + 1] - curve.x[row];
+  return step > 0.0 || row == 0 ? step : curve.x[row] - curve.x[row - 1];
+}
+
 ComputedEvent jump_by(const SampledCurve& curve, const Fall& fall, bool is_there) {
   return {.is_there = is_there,
           .before = fall.before,
           .after = fall.after,
           .displacement = place_of(curve, fall),
-          .step = is_there ? curve.x[fall.steepest + 1] - curve.x[fall.steepest] : 0.0,
+          .step = is_there ? step_behind(curve, fall.steepest) : 0.0,
           .force_before = curve.y[fall.before],
           .force_after = curve.y[fall.after]};
 }
@@ -51,12 +67,7 @@ ComputedEvent instead_of_jump(const SampledCurve& curve, const std::vector<Fall>
   for (std::size_t i = jumps.empty() ? 0 : jumps.back().after; i + 1 < curve.x.size(); ++i)
     if (fall_behind(curve, i) > (most ? fall_behind(curve, *most) : 0.0)) most = i;
   if (most) return jump_by(curve, {*most, *most + 1, *most}, false);
-  const std::size_t last = curve.x.size() - 1;
-  return {.before = last,
-          .after = last,
-          .displacement = curve.x.back(),
-          .force_before = curve.y.back(),
-          .force_after = curve.y.back()};
+  return end_of(curve);
 }
 
 ComputedEvent computed_jump(const MeasuredEvent& event, const SampledCurve& curve) {
@@ -78,6 +89,16 @@ ComputedEvent computed_greatest(const SampledCurve& curve) {
           .step = (curve.x[after] - curve.x[before]) / static_cast<double>(std::max(after - before, std::size_t{1})),
           .force_before = curve.y[row],
           .force_after = curve.y[row]};
+}
+
+ComputedEvent computed_debonding(const SampledCurve& curve) {
+  if (!curve.first_debonding) return end_of(curve);
+  const Between& step = *curve.first_debonding;
+  return {.is_there = true,
+          .displacement = 0.5 * (step.x_before + step.x_after),
+          .step = std::max(step.x_after - step.x_before, 0.0),
+          .force_before = step.y_before,
+          .force_after = step.y_after};
 }
 
 /// A part of a curve without jumps.
@@ -140,6 +161,7 @@ std::string_view unit_of(EventFigure figure) { return figure == EventFigure::dis
 
 std::string MeasuredEvent::name() const {
   if (kind == EventKind::greatest_force) return "greatest force";
+  if (kind == EventKind::first_debonding) return "first debonding";
   return number ? fmt::format("jump {}", *number) : fmt::format("jump at {}", quantity_text(place, "m"));
 }
 
@@ -154,7 +176,12 @@ double ComputedEvent::of(EventFigure figure) const {
 }
 
 ComputedEvent computed_event(const MeasuredEvent& event, const SampledCurve& model) {
-  return event.kind == EventKind::jump ? computed_jump(event, model) : computed_greatest(model);
+  switch (event.kind) {
+    case EventKind::jump: return computed_jump(event, model);
+    case EventKind::first_debonding: return computed_debonding(model);
+    case EventKind::greatest_force: break;
+  }
+  return computed_greatest(model);
 }
 
 SampledCurve with_jumps_as_measured(const SampledCurve& model, const std::vector<MeasuredEvent>& events,
@@ -200,6 +227,8 @@ SampledCurve up_to(const SampledCurve& curve, double displacement) {
   }
   part.x.push_back(displacement);
   part.y.push_back(curve.at(displacement));
+  if (curve.first_debonding && curve.first_debonding->x_after <= displacement)
+    part.first_debonding = curve.first_debonding;
   return part;
 }
 

@@ -1,7 +1,7 @@
 #pragma once
-// Events of a force-displacement curve as data of their own: a jump, at which the force falls at once, and the greatest
-// force. Pointwise residuals of a curve that jumps are a staircase in the parameters; where it jumps, and between which
-// forces, is not.
+// Events of a force-displacement curve as data of their own: a jump, at which the force falls at once, the greatest
+// force, and the first debonding, which need not be seen in the force. Pointwise residuals of a curve that jumps are a
+// staircase in the parameters; where it jumps, and between which forces, is not.
 
 #include "postproc/curves/comparison.h"
 
@@ -14,10 +14,10 @@
 
 namespace pfdm {
 
-enum class EventKind { jump, greatest_force };
+enum class EventKind { jump, greatest_force, first_debonding };
 
-/// What is measured of an event. A jump has a displacement and the forces before and after it, a greatest force has a
-/// displacement and the force.
+/// What is measured of an event. A jump, and the first debonding, has a displacement and the forces before and after
+/// it, a greatest force has a displacement and the force.
 enum class EventFigure { displacement, force_before, force_after, force };
 std::string_view name_of(EventFigure figure);  ///< "force_before"
 std::string_view unit_of(EventFigure figure);  ///< "m", "N"
@@ -38,7 +38,7 @@ struct MeasuredEvent {
   bool is_found = false;        ///< in the rows of the record; otherwise the case states it
   std::vector<MeasuredFigure> figures{};
 
-  std::string name() const;  ///< "jump 2", "jump at 155 um", "greatest force"
+  std::string name() const;  ///< "jump 2", "jump at 155 um", "greatest force", "first debonding"
   /// Of a displacement that counts; zero without one.
   double deviation_of_place() const;
 };
@@ -47,7 +47,7 @@ struct ComputedEvent {
   bool is_there = false;
   std::size_t before = 0, after = 0;  ///< rows of the curve; of a greatest force both its own
   double displacement = 0.0;
-  double step = 0.0;  ///< between the rows about it [m]: its displacement is a place within; zero if it is not there
+  double step = 0.0;  ///< in which it is [m]: its displacement is a place within; zero if it is not there
   double force_before = 0.0, force_after = 0.0;  ///< of a greatest force both the force
 
   double of(EventFigure figure) const;
@@ -56,7 +56,8 @@ struct ComputedEvent {
 /// A jump is one step in which the force falls by more than least_fall, or several such steps one after the other; it
 /// lies in the middle of the one that falls most. Without such a step it is where the force falls most in one, beyond
 /// jumps with a smaller number, and where it falls nowhere at the end of the curve: what it says then goes over into
-/// that of a jump where one becomes too small or leaves the curve.
+/// that of a jump where one becomes too small or leaves the curve. The first debonding is in the middle of its step, or
+/// at the end of the curve.
 ComputedEvent computed_event(const MeasuredEvent& event, const SampledCurve& model);
 
 /// The model's curve with its jumps where these are measured. What lies between jumps stays where it is, and goes on

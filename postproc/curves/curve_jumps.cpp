@@ -34,11 +34,14 @@ JumpAlignment::JumpAlignment(const SampledCurve& from, const SampledCurve& to) {
 
 SampledCurve JumpAlignment::operator()(SampledCurve curve) const {
   if (from_.empty()) return curve;
-  for (double& x : curve.x) {
-    if (x <= from_.front() || x >= from_.back()) continue;
+  const auto move = [this](double& x) {
+    if (x <= from_.front() || x >= from_.back()) return;
     const auto k = static_cast<std::size_t>(std::ranges::upper_bound(from_, x) - from_.begin());
     x = to_[k - 1] + (x - from_[k - 1]) * (to_[k] - to_[k - 1]) / (from_[k] - from_[k - 1]);
-  }
+  };
+  std::ranges::for_each(curve.x, move);
+  if (curve.first_debonding)
+    for (double* x : {&curve.first_debonding->x_before, &curve.first_debonding->x_after}) move(*x);
   return curve;
 }
 

@@ -172,7 +172,13 @@ SampledCurve as_recorded(const SampledCurve& computed, const SetUp& set_up) {
     add(computed.x[0] - reach, computed.y[0] - slope * reach);
   }
   for (std::size_t i = 0; i < computed.x.size(); ++i) add(computed.x[i], computed.y[i]);
-  return driven_curve(recorded);
+  SampledCurve driven = driven_curve(recorded);
+  if (const auto& b = computed.first_debonding) {
+    const auto at = [&](double u, double F) { return u + set_up.offset + set_up.compliance * F; };
+    driven.first_debonding = Between{at(b->x_before, b->y_before), b->y_before + set_up.force_offset,
+                                     at(b->x_after, b->y_after), b->y_after + set_up.force_offset};
+  }
+  return driven;
 }
 
 std::vector<double> nearest_not_falling(const std::vector<double>& values) {

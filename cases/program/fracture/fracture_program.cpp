@@ -146,7 +146,9 @@ void fit(const FractureProgram& program, Session& session) {
   if (!program.experiment)
     throw InputError(fmt::format("{}: it names no [experiment] that the curve could be fitted to", program.name));
   const auto read = [component = program.fracture.output.curve.component](const std::filesystem::path& results) {
-    return computed_curve(read_curve(results / curve_file), component);
+    SampledCurve curve = computed_curve(read_curve(results / curve_file), component);
+    curve.first_debonding = first_debonding_in(results);
+    return curve;
   };
   const ExperimentSettings& experiment = *program.experiment;
   fit_curve({.file = program.file,

@@ -163,6 +163,28 @@ TEST(EventFit, IsNotSoundWithAnEventElsewhere) {
   EXPECT_THAT(fit["reasons"].dump(), HasSubstr("has a computed force before of "));
 }
 
+TEST(EventFit, MeetsTheFirstDebonding) {
+  const std::string event =
+      "event = \"first_debonding\"\ndisplacement = { value = \"11.8 um\", deviation = \"0.1 um\" }\n";
+  const TemporaryCase directory(event_fit(event) + crack_plane());
+  const auto fit = fitted(directory);
+  EXPECT_EQ(fit["verdict"], "sound") << fit["reasons"];
+  EXPECT_TRUE(fit["events"][0]["in_computed_curve"].get<bool>());
+  const std::string again = (directory.path() / "again").string();
+  ASSERT_EQ(run({"run", (directory.results() / "case.fitted.toml").string(), "--quiet", "--output", again}).status, 0);
+  const auto summary = nlohmann::json::parse(content_of(std::filesystem::path(again) / "summary.json"));
+  EXPECT_NEAR(figure(fit["events"][0], "displacement")["computed"].get<double>(),
+              0.5 * (summary["first_debonding_displacement_m"].get<double>() +
+                     summary["first_debonding_displacement_after_m"].get<double>()),
+              1e-10);
+}
+
+TEST(EventFit, IsNotSoundWhereNothingDebonds) {
+  const TemporaryCase directory(
+      event_fit("event = \"first_debonding\"\ndisplacement = { value = \"11.8 um\", deviation = \"0.1 um\" }\n"));
+  EXPECT_THAT(fitted(directory)["reasons"].dump(), HasSubstr("nothing debonds in the fitted run"));
+}
+
 class BadEvent : public testing::TestWithParam<BadInput> {};
 
 TEST_P(BadEvent, IsRefusedWithOneMessage) {
@@ -180,7 +202,7 @@ const BadInput bad_events[] = {
     {"unknown_event",
      good,
      "event = \"bang\"\n",
-     {"\"bang\" is not an event of a curve (allowed: jump, greatest_force)"}},
+     {"\"bang\" is not an event of a curve (allowed: jump, greatest_force, first_debonding)"}},
     {"force_of_a_jump",
      good,
      "event = \"jump\"\nforce = { value = \"1 N\", deviation = \"1 N\" }\n",
@@ -199,6 +221,14 @@ const BadInput bad_events[] = {
      {"\"one\" has 1 such jump, no jump 3: its force falls by more than 10 % of the largest"}},
     {"greatest_force_of_noise", good, "event = \"greatest_force\"\n", {"state \"force\", \"displacement\" or both"}},
     {"fall_of_everything", good, "event = \"jump\"\nleast_fall = 1.0\n", {"least_fall: 1 must be above 0 and below 1"}},
+    {"number_of_a_greatest_force",
+     good,
+     "event = \"greatest_force\"\nnumber = 2\nforce = { value = \"1 N\", deviation = \"1 N\" }\n",
+     {"[experiment.events]", "number"}},
+    {"debonding_without_displacement",
+     good,
+     "event = \"first_debonding\"\n",
+     {"state its \"displacement\": no record of the force tells what debonds"}},
     {"no_specimen", good, "event = \"jump\"\nspecimen = \"two\"\n", {"\"two\" is not a specimen (allowed: one)"}},
     {"named_twice",
      good,

@@ -75,6 +75,24 @@ TEST(CurveEvents, ThatAreNotThereGoOverIntoThoseThatAre) {
   EXPECT_NEAR(gone.force_before, late.force_before, 2.0 * step);
 }
 
+TEST(CurveEvents, HoldTheFirstDebondingWithWhatTheSetUpAdds) {
+  SampledCurve curve = curve_with(12.0);
+  const MeasuredEvent event{.kind = EventKind::first_debonding, .place = 4.0};
+  EXPECT_FALSE(computed_event(event, curve).is_there);
+  EXPECT_EQ(computed_event(event, curve).displacement, curve.x.back());
+  curve.first_debonding = Between{4.0, 4.0, 4.1, 4.1};
+  const ComputedEvent computed = computed_event(event, curve);
+  EXPECT_DOUBLE_EQ(computed.displacement, 4.05);
+  EXPECT_NEAR(computed.step, 0.1, 1e-12);
+  EXPECT_DOUBLE_EQ(computed.force_after, 4.1);
+  const pfdm::SetUp set_up{.offset = 1.0, .force_offset = 2.0, .compliance = 0.5};
+  const ComputedEvent recorded = computed_event(event, as_recorded(curve, set_up));
+  EXPECT_DOUBLE_EQ(recorded.displacement, 1.0 + 1.5 * 4.05);
+  EXPECT_DOUBLE_EQ(recorded.force_before, 6.0);
+  EXPECT_TRUE(computed_event(event, up_to(curve, 4.2)).is_there);
+  EXPECT_FALSE(computed_event(event, up_to(curve, 4.05)).is_there);
+}
+
 TEST(CurveEvents, MoveTheJumpAndNothingElse) {
   for (const double place : {5.03, 6.87}) {
     const SampledCurve model = curve_with(6.0),
@@ -122,31 +140,29 @@ TEST(CurveEvents, CountBehindThePointsAndInPlaceOfThoseBesideThem) {
     EXPECT_NEAR(residuals[i], points.points[i].x < 6.05 ? 0.0 : after / 0.05, 1e-6) << points.points[i].x;
 }
 
+/// Largest second difference of the sum of squares over the place of the computed jump, of its range.
+double roughness_of(const MeasuredPoints& points) {
+  std::vector<double> squares;
+  for (int i = 0; i <= 60; ++i) {
+    squares.push_back(0.0);
+    const auto residuals = residuals_of(curve_with(5.6 + 0.013 * i), points);
+    for (const double r : residuals.value()) squares.back() += r * r;
+  }
+  double most = 0.0;
+  for (std::size_t i = 1; i + 1 < squares.size(); ++i)
+    most = std::max(most, std::abs(squares[i - 1] - 2.0 * squares[i] + squares[i + 1]));
+  return most / (std::ranges::max(squares) - std::ranges::min(squares));
+}
+
 // Pointwise the sum of squares is a staircase in the place of the jump; with the event it is a parabola.
 TEST(CurveEvents, MakeTheSumOfSquaresSmooth) {
-  const auto squares = [](double jump, const MeasuredPoints& points) {
-    double sum = 0.0;
-    for (const double r : residuals_of(curve_with(jump), points).value()) sum += r * r;
-    return sum;
-  };
   MeasuredPoints with = points_with(jump_measured_at(6.05, 0.1));
   std::erase_if(with.points, [](const auto& point) { return std::fmod(point.x + 1e-6, 0.5) > 0.01; });
   MeasuredPoints without = with;
   without.events.clear();
   leave_out_near_events(with);
-  double roughness = 0.0, rough = 0.0, range = 0.0, wide = 0.0;
-  const double h = 0.013;
-  for (double jump = 5.6; jump < 6.4; jump += h) {
-    const auto bend = [&](const MeasuredPoints& p) {
-      return std::abs(squares(jump + h, p) - 2.0 * squares(jump, p) + squares(jump - h, p));
-    };
-    roughness = std::max(roughness, bend(with));
-    rough = std::max(rough, bend(without));
-    range = std::max(range, squares(jump, with));
-    wide = std::max(wide, squares(jump, without));
-  }
-  EXPECT_LT(roughness / range, 0.02);
-  EXPECT_GT(rough / wide, 0.15);
+  EXPECT_LT(roughness_of(with), 0.02);
+  EXPECT_GT(roughness_of(without), 0.15);
 }
 
 }  // namespace

@@ -31,6 +31,11 @@ const KeyTable& measured_force_keys() {
   return table;
 }
 
+Key of_jumps(Key key) {
+  key.only = "jump";
+  return key;
+}
+
 constexpr EventFigure figures_of_jump[] = {EventFigure::displacement, EventFigure::force_before,
                                            EventFigure::force_after};
 constexpr EventFigure figures_of_greatest[] = {EventFigure::displacement, EventFigure::force};
@@ -55,7 +60,7 @@ void read_figures(const ConfigTable& table, MeasuredEvent& event) {
           {.figure = figure, .value = measured.quantity("value"), .deviation = measured.quantity("deviation")});
     }
   };
-  event.kind == EventKind::jump ? read(figures_of_jump) : read(figures_of_greatest);
+  event.kind == EventKind::greatest_force ? read(figures_of_greatest) : read(figures_of_jump);
 }
 
 std::string number_text(const MeasuredEvent& event, std::size_t n) {
@@ -90,6 +95,8 @@ void place_event(const ConfigTable& table, const SampledCurve& record, MeasuredE
       throw table.at("displacement")
           .error(fmt::format("\"{}\" was recorded between {} and {}", record.name, quantity_text(record.x.front(), "m"),
                              quantity_text(record.x.back(), "m")));
+  } else if (event.kind == EventKind::first_debonding) {
+    throw table.error("a first debonding with forces needs its displacement, too");
   } else if (event.kind == EventKind::jump) {
     throw table.error("a jump with forces needs its displacement, too; without any of them it is found in the record");
   } else {
@@ -101,12 +108,15 @@ MeasuredEvent read_event(const ConfigTable& table, const std::vector<MeasuredCur
   MeasuredEvent event{.specimen = read_specimen_of(table, specimens)};
   read_stored(table, event);
   if (table.choice("event") == "greatest_force") event.kind = EventKind::greatest_force;
+  if (table.choice("event") == "first_debonding") event.kind = EventKind::first_debonding;
   const SampledCurve& record = specimens[event.specimen].curve;
   read_figures(table, event);
   if (!event.figures.empty())
     place_event(table, record, event);
   else if (event.kind == EventKind::jump)
     find_jump(table, record, event);
+  else if (event.kind == EventKind::first_debonding)
+    throw table.error("state its \"displacement\": no record of the force tells what debonds");
   else
     throw table.error("state \"force\", \"displacement\" or both: the largest of noisy rows is larger than the force");
   return event;
@@ -119,19 +129,21 @@ const KeyTable& event_keys() {
   static const KeyTable table{
       .name = "experiment.events[]",
       .sentence = "An event of a measured curve, which pfdm fit meets beside the curve.",
-      .keys = {{"event", choice("event of a curve", {"jump", "greatest_force"}), "",
-                "What happens: the force falls at once, or is the greatest."},
+      .keys = {{"event", choice("event of a curve", {"jump", "greatest_force", "first_debonding"}), "",
+                "What happens: the force falls at once, or is the greatest, or something debonds for the first time."},
                {"specimen", text("name"), "the only one", "Specimen in whose test it happened."},
-               stored<&MeasuredEvent::number>("number", whole(number_range),
-                                              "Number of the jump along the curve, measured and computed.",
-                                              "the nearest one; of those to be found the largest"),
-               stored<&MeasuredEvent::least_fall>(
+               of_jumps(stored<&MeasuredEvent::number>("number", whole(number_range),
+                                                       "Number of the jump along the curve, measured and computed.",
+                                                       "the nearest one; of those to be found the largest")),
+               of_jumps(stored<&MeasuredEvent::least_fall>(
                    "least_fall", number(fall_range),
-                   "Share of the largest force by which the force falls in one step of a jump."),
+                   "Share of the largest force by which the force falls in one step of a jump.")),
                {"displacement", keys::table(measured_length_keys), "found in the record",
                 "Displacement of the event, with its standard deviation."},
-               {"force_before", keys::table(measured_force_keys), "no datum", "Force right before the jump.", "jump"},
-               {"force_after", keys::table(measured_force_keys), "no datum", "Force right after the jump.", "jump"},
+               {"force_before", keys::table(measured_force_keys), "no datum",
+                "Force right before the jump or the debonding.", "jump first_debonding"},
+               {"force_after", keys::table(measured_force_keys), "no datum",
+                "Force right after the jump or the debonding.", "jump first_debonding"},
                {"force", keys::table(measured_force_keys), "no datum", "The greatest force.", "greatest_force"}},
       .decided_by = "event"};
   return table;

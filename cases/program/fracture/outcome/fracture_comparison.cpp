@@ -5,8 +5,11 @@
 #include "physics/quantity_text.h"
 #include "postproc/cohesive/cohesive_law.h"
 #include "postproc/curves/comparison_results.h"
+#include "postproc/curves/summary.h"
 
 #include <fmt/format.h>
+
+#include <cmath>
 
 namespace pfdm {
 namespace {
@@ -95,6 +98,16 @@ SampledCurve computed_curve(const std::vector<CurveRow>& rows, int component) {
     curve.y.push_back(row.force[component]);
   }
   return driven_curve(curve);
+}
+
+std::optional<Between> first_debonding_in(const std::filesystem::path& results) {
+  const auto summary = read_summary(results / summary_file);
+  if (!summary) return std::nullopt;
+  const auto figure = [&](const char* name) { return summary->number(fmt::format("first_debonding_{}", name)); };
+  const Between step{figure("displacement_m"), figure("force_N"), figure("displacement_after_m"),
+                     figure("force_after_N")};
+  if (!std::isfinite(step.x_before) || !std::isfinite(step.x_after)) return std::nullopt;
+  return step;
 }
 
 SampledCurve computed_angle(const ExperimentSettings& experiment, const std::vector<CurveRow>& rows,

@@ -7,6 +7,8 @@
 #include "postproc/cohesive/column_record.h"
 #include "postproc/curves/curve_csv.h"
 
+#include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,6 +16,8 @@ namespace pfdm {
 
 /// Force over displacement as a test that is driven by its displacement would show it.
 SampledCurve computed_curve(const std::vector<CurveRow>& rows, int component);
+/// Between which displacements and forces something debonded first, as summary.json there says.
+std::optional<Between> first_debonding_in(const std::filesystem::path& results);
 
 /// The debonding angle [rad] at the pole, and of the surface, that the experiment's angles are of; it has one at least.
 /// Throws InputError for a surface that the record does not have.

@@ -31,6 +31,11 @@ std::string measured_text(const MeasuredFigure& figure) {
 }
 
 std::string lacking_text(const MeasuredEvent& event, const std::string& specimen) {
+  if (event.kind == EventKind::first_debonding)
+    return fmt::format(
+        "nothing debonds in the fitted run, or it has no surface that could ([cohesive], [[interface]]): "
+        "the residuals of the {} of {} are those of the end of the curve",
+        event.name(), specimen);
   return fmt::format(
       "the fitted curve lacks {} of {}: nowhere else does its force fall in one step by more than {:g} % "
       "of the largest; its residuals are those of the largest fall, or of the end of the curve",
@@ -142,10 +147,10 @@ std::vector<FittedEvent> CurveFit::fitted_events(const SampledCurve& fitted) con
       f.deviation = measured->deviation;
       if (measured->counts) f.residual = residual_of(computed, *measured);
     };
-    if (event.kind == EventKind::jump)
-      std::ranges::for_each(of_jump, add);
-    else
+    if (event.kind == EventKind::greatest_force)
       std::ranges::for_each(of_greatest, add);
+    else
+      std::ranges::for_each(of_jump, add);
     events.push_back(std::move(told));
   }
   return events;
