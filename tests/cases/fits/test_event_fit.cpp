@@ -139,7 +139,9 @@ TEST(EventFit, HasAllThatOtherFitsHave) {
     EXPECT_NEAR(p["posterior"]["median"].get<double>(), p["estimate"].get<double>(), 0.4 * width) << key;
     EXPECT_TRUE(p.contains("moved_by_finer"));
   }
-  EXPECT_TRUE(std::filesystem::exists(directory.results() / "fit_sensitivity.csv"));
+  const std::string sensitivity = content_of(directory.results() / "fit_sensitivity.csv");
+  EXPECT_THAT(sensitivity, HasSubstr("displacement of jump 1 changes by "));
+  EXPECT_THAT(sensitivity, HasSubstr("force of greatest force changes by "));
 }
 
 TEST(EventFit, IsNotSoundWithoutTheEvent) {

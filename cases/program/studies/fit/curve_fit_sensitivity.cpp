@@ -5,6 +5,7 @@
 #include "postproc/files/csv_table.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -30,6 +31,28 @@ Move move_of(const FittedParameter& p, double standard_error) {
   return {by, fmt::format("{} + {}", p.name, quantity_text(by, p.unit))};
 }
 
+/// A sentence for each figure of an event that counts: how far it moves with each of the parameters. Their derivatives
+/// are behind those of the points.
+std::vector<std::string> changes_of_events(const MeasuredPoints& points, const Eigen::MatrixXd& derivatives,
+                                           const std::vector<Move>& moves) {
+  std::vector<std::string> sentences;
+  auto row = std::ssize(points.points);
+  for (const MeasuredEvent& event : points.events)
+    for (const MeasuredFigure& figure : event.figures) {
+      if (!figure.counts) continue;
+      std::vector<std::string> changes;
+      for (std::size_t k = 0; k < moves.size(); ++k) {
+        const double change = moves[k].by * figure.deviation * derivatives(row, static_cast<Eigen::Index>(k));
+        changes.push_back(
+            fmt::format("{} with {}", quantity_text(change, std::string(unit_of(figure.figure)), 3), moves[k].told));
+      }
+      sentences.push_back(
+          fmt::format("{} of {} changes by {}", name_of(figure.figure), event.name(), fmt::join(changes, ", by ")));
+      ++row;
+    }
+  return sentences;
+}
+
 }  // namespace
 
 std::string CurveFit::add_sensitivity(const DoneStage& done, const FitFindings& found) {
@@ -42,9 +65,16 @@ std::string CurveFit::add_sensitivity(const DoneStage& done, const FitFindings& 
     if (point.specimen == 0) x.push_back(point.x);
   if (x.empty()) return "";
   table.add("displacement_m", x);
+  std::vector<Move> moves;
   for (std::size_t k = 0; k < found.parameters.size(); ++k) {
     const auto column = static_cast<Eigen::Index>(k);
-    const Move move = move_of(found.parameters[k], std::sqrt(done.result.covariance(column, column)));
+    moves.push_back(move_of(found.parameters[k], std::sqrt(done.result.covariance(column, column))));
+  }
+  for (std::string& sentence : changes_of_events(done.points, done.result.derivatives, moves))
+    table.comments.push_back(std::move(sentence));
+  for (std::size_t k = 0; k < found.parameters.size(); ++k) {
+    const auto column = static_cast<Eigen::Index>(k);
+    const Move& move = moves[k];
     table.comments.push_back(move.told);
     std::vector<double> changes;
     for (Eigen::Index i = 0; i < std::ssize(done.points.points); ++i) {
