@@ -4,6 +4,7 @@
 #include "postproc/curves/curve_jumps.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -158,6 +159,23 @@ std::string_view name_of(EventFigure figure) {
 }
 
 std::string_view unit_of(EventFigure figure) { return figure == EventFigure::displacement ? "m" : "N"; }
+
+std::string in_words(EventFigure figure) {
+  std::string words(name_of(figure));
+  std::ranges::replace(words, '_', ' ');
+  return words;
+}
+
+std::string event_words(const MeasuredEvent& event, std::string_view specimen) {
+  std::vector<std::string> data;
+  for (const MeasuredFigure& f : event.figures)
+    if (f.counts)
+      data.push_back(fmt::format("{} {}, standard deviation {}", in_words(f.figure),
+                                 quantity_text(f.value, unit_of(f.figure)),
+                                 quantity_text(f.deviation, unit_of(f.figure), 2)));
+  return fmt::format("{} of {}{}: {}", event.name(), specimen, event.is_found ? ", found in the record" : "",
+                     fmt::join(data, "; "));
+}
 
 std::string MeasuredEvent::name() const {
   if (kind == EventKind::greatest_force) return "greatest force";

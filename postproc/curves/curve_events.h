@@ -21,6 +21,7 @@ enum class EventKind { jump, greatest_force, first_debonding };
 enum class EventFigure { displacement, force_before, force_after, force };
 std::string_view name_of(EventFigure figure);  ///< "force_before"
 std::string_view unit_of(EventFigure figure);  ///< "m", "N"
+std::string in_words(EventFigure figure);      ///< "force before"
 
 struct MeasuredFigure {
   EventFigure figure = EventFigure::displacement;
@@ -42,6 +43,9 @@ struct MeasuredEvent {
   /// Of a displacement that counts; zero without one.
   double deviation_of_place() const;
 };
+
+/// The event of a specimen, and its data with their standard deviations.
+std::string event_words(const MeasuredEvent& event, std::string_view specimen);
 
 struct ComputedEvent {
   bool is_there = false;

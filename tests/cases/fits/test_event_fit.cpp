@@ -109,6 +109,14 @@ TEST(EventFit, MeetsAJumpThatIsFoundInTheRecord) {
   EXPECT_EQ(fit["residuals"].get<std::size_t>(), broken_bar().rows.column("force_N").size() - 2 + 1);
 }
 
+TEST(EventFit, IsSaidBeforeItIsMade) {
+  const TemporaryCase directory(event_fit());
+  broken_bar().write(directory);
+  EXPECT_THAT(
+      run({"check", directory.path().string()}).out,
+      HasSubstr("jump at 11.88 um of one, found in the record: displacement 11.88 um, standard deviation 72 nm"));
+}
+
 TEST(EventFit, IsMarkedOnThePage) {
   const TemporaryCase directory(event_fit());
   fitted(directory);

@@ -18,18 +18,6 @@ double residual_of(const ComputedEvent& computed, const MeasuredFigure& figure) 
   return (computed.of(figure.figure) - figure.value) / figure.deviation;
 }
 
-std::string in_words(EventFigure figure) {
-  std::string words(name_of(figure));
-  std::ranges::replace(words, '_', ' ');
-  return words;
-}
-
-std::string measured_text(const MeasuredFigure& figure) {
-  const std::string unit(unit_of(figure.figure));
-  return fmt::format("{} {}, standard deviation {}", in_words(figure.figure), quantity_text(figure.value, unit),
-                     quantity_text(figure.deviation, unit, 2));
-}
-
 std::string lacking_text(const MeasuredEvent& event, const std::string& specimen) {
   if (event.kind == EventKind::first_debonding)
     return fmt::format(
@@ -63,13 +51,10 @@ void CurveFit::widen_events() {
   for (MeasuredEvent& event : events_) {
     const SampledCurve& curve = curves[event.specimen];
     const double step = computed_event(event, curve).step;
-    for (MeasuredFigure& figure : event.figures) {
-      if (!figure.counts) continue;
-      if (figure.figure == EventFigure::displacement)
+    for (MeasuredFigure& figure : event.figures)
+      if (figure.counts && figure.figure == EventFigure::displacement)
         figure.deviation = std::hypot(figure.deviation, step / std::sqrt(12.0));
-      session_.log.say(fmt::format("{} of {}{}: {}", event.name(), job_.specimens[event.specimen].curve.name,
-                                   event.is_found ? ", found in the record" : "", measured_text(figure)));
-    }
+    session_.log.say(event_words(event, job_.specimens[event.specimen].curve.name));
   }
 }
 
