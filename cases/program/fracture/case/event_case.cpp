@@ -2,6 +2,7 @@
 
 #include "cases/program/input/config/key_member.h"
 #include "physics/quantity_text.h"
+#include "postproc/curves/curve_misfit.h"
 #include "postproc/curves/recorded_jumps.h"
 
 #include <fmt/format.h>
@@ -158,6 +159,10 @@ std::vector<MeasuredEvent> read_events(const ConfigTable& experiment, const std:
             "events have standard deviations of their own, and \"{}\" has none: with what weight they count beside its "
             "rows is not known; give [[experiment.specimens]] deviation",
             specimen.curve.name));
+    table.in_context([&] {
+      require_deviations(specimens);
+      return true;
+    });
     events.push_back(read_event(table, specimens));
     if (events.back().kind == EventKind::jump)
       for (std::size_t k = 0; k + 1 < events.size(); ++k)
