@@ -173,6 +173,13 @@ TEST(EventFit, IsNotSoundWithAnEventElsewhere) {
   EXPECT_THAT(fit["reasons"].dump(), HasSubstr("has a computed force before of "));
 }
 
+TEST(EventFit, IsNotSoundWithLoadStepsThatAreTooLong) {
+  const TemporaryCase directory(replaced(replaced(event_fit(), "initial_increment = 0.01", "initial_increment = 0.04"),
+                                         "\nmaximum_increment = 0.01", "\nmaximum_increment = 0.04"));
+  EXPECT_THAT(fitted(directory)["reasons"].dump(),
+              HasSubstr("over the differences of the parameters, and lies within"));
+}
+
 TEST(EventFit, MeetsTheFirstDebonding) {
   const std::string event =
       "event = \"first_debonding\"\ndisplacement = { value = \"11.8 um\", deviation = \"0.1 um\" }\n";

@@ -98,6 +98,10 @@ class CurveFit {
   std::vector<std::string> missed_origins(const SampledCurve& fitted) const;
   /// Reasons where the fitted curve lacks an event, or has it elsewhere; in curve_fit_events.cpp.
   void doubt_events(const DoneStage& done, const SampledCurve& fitted, FitFindings& found);
+  /// A reason where an event moves by hardly a load step over the differences that the derivatives are of. `row`: of
+  /// the residual of its displacement.
+  void doubt_derivatives(const DoneStage& done, const MeasuredEvent& event, const ComputedEvent& computed,
+                         Eigen::Index row, FitFindings& found) const;
   /// Whether the case that [fit] `finer` makes has the event where it was measured.
   bool finer_meets(const DoneStage& done, const MeasuredEvent& event, const MeasuredFigure& figure);
   /// What the fitted curve has of all events.

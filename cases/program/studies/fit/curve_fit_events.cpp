@@ -82,16 +82,40 @@ bool CurveFit::finer_meets(const DoneStage& done, const MeasuredEvent& event, co
   return computed.is_there && std::abs(residual_of(computed, figure)) <= surely_elsewhere;
 }
 
+void CurveFit::doubt_derivatives(const DoneStage& done, const MeasuredEvent& event, const ComputedEvent& computed,
+                                 Eigen::Index row, FitFindings& found) const {
+  constexpr double least_steps = 2.0;
+  const double sides = done.settings.differences == Differences::forward ? 1.0 : 2.0;
+  std::optional<double> most;  // by parameters that runs depend on
+  for (std::size_t k = 0; k < done.problem.parameters.size(); ++k) {
+    const FitParameter& p = done.problem.parameters[k];
+    if (is_of_set_up_[done.stage.parameters[k]]) continue;
+    const double difference = sides * done.settings.step * (p.log_scale ? 1.0 : std::abs(p.first));
+    const double derivative = event.deviation_of_place() * done.result.derivatives(row, static_cast<Eigen::Index>(k));
+    most = std::max(most.value_or(0.0), std::abs(derivative * difference));
+  }
+  if (most && computed.is_there && *most < least_steps * computed.step)
+    question(found,
+             fmt::format("{} moves by {} over the differences of the parameters, and lies within a load step of {}: "
+                         "its derivatives are those of the steps; take shorter load steps about it, or a longer "
+                         "step in [fit]",
+                         event.name(), quantity_text(*most, "m", 2), quantity_text(computed.step, "m", 2)));
+}
+
 void CurveFit::doubt_events(const DoneStage& done, const SampledCurve& fitted, FitFindings& found) {
   if (done.points.events.empty()) return;
   ModelCurves curves = as_recorded_by_all(done.until ? up_to(fitted, *done.until) : fitted, values_);
+  auto row = std::ssize(done.points.points);
   for (const MeasuredEvent& event : done.points.events) {
     SampledCurve& curve = curves[event.specimen];
     curve.name = job_.specimens[event.specimen].curve.name;
     const ComputedEvent computed = computed_event(event, curve);
     if (!computed.is_there) question(found, lacking_text(event, curve.name));
     for (const MeasuredFigure& figure : event.figures) {
-      if (!figure.counts || !computed.is_there) continue;
+      if (!figure.counts) continue;
+      if (figure.figure == EventFigure::displacement) doubt_derivatives(done, event, computed, row, found);
+      ++row;
+      if (!computed.is_there) continue;
       const double residual = residual_of(computed, figure);
       if (std::abs(residual) > surely_elsewhere && !finer_meets(done, event, figure))
         question(found,
