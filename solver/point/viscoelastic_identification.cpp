@@ -1,0 +1,193 @@
+#include "solver/point/viscoelastic_identification.h"
+
+#include "physics/error.h"
+#include "physics/quantity_text.h"
+#include "solver/point/viscoelastic_start.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace pfdm {
+namespace {
+
+constexpr double negligible_residual = 1e-3;  // over the noise: rounding, which more branches do not improve
+constexpr double worth_mention = 2.0;         // of the information: fewer branches are taken
+constexpr double very_strong = 10.0;          // likewise: a branch that is not determined is in the data
+constexpr int reweightings = 2;
+
+struct Problem {
+  const PronyLaw& law;
+  const ViscoelasticExperiments& experiments;
+  const ViscoelasticSettings& settings;
+  TimeWindow window;
+};
+
+ViscoelasticFit fit_from_law(const Problem& p, const PronyLaw& start, std::span<const double> deviations,
+                             const FitSettings& settings) {
+  return fit_law(start, p.settings.choice, p.experiments, deviations, p.settings.limits, settings);
+}
+
+/// To compare fits: too many branches creep along valleys.
+FitSettings roughly(FitSettings settings) {
+  settings.cost_tolerance = std::max(settings.cost_tolerance, 1e-7);
+  return settings;
+}
+
+/// The lowest of the minima from these starts.
+ViscoelasticFit lowest_from(const Problem& p, const std::vector<PronyLaw>& starts, std::span<const double> deviations) {
+  std::optional<ViscoelasticFit> best;
+  for (const PronyLaw& start : starts) {
+    try {
+      ViscoelasticFit found = fit_from_law(p, start, deviations, roughly(p.settings.fit));
+      if (!best || found.result.sum_of_squares < best->result.sum_of_squares) best = std::move(found);
+    } catch (const ComputationError&) {
+      if (&start == &starts.back() && !best) throw;
+    }
+  }
+  return std::move(*best);
+}
+
+/// Branches of fixed times that the data want at zero are left out.
+ViscoelasticFit without_zeros(const Problem& p, ViscoelasticFit found, std::span<const double> deviations) {
+  for (std::size_t turn = found.law.shear.size(); turn > 1; --turn) {
+    const auto& parameters = found.parameters;
+    std::vector<PronyBranch> left;
+    for (std::size_t i = 0; i < found.law.shear.size(); ++i) {
+      const auto at = std::ranges::find(parameters, fmt::format("modulus_{}", i + 1), &FitParameter::name);
+      const bool is_zero = at != parameters.end() &&
+                           found.law.shear[i].modulus < 1e-6 * (found.law.relaxed.mu + found.law.shear[i].modulus) &&
+                           !(found.result.estimates[static_cast<std::size_t>(at - parameters.begin())].standard_error <
+                             found.law.shear[i].modulus);
+      if (!is_zero) left.push_back(found.law.shear[i]);
+    }
+    if (left.size() == found.law.shear.size() || left.empty()) return found;
+    PronyLaw fewer = found.law;
+    fewer.shear = left;
+    found = fit_from_law(p, fewer, deviations, roughly(p.settings.fit));
+  }
+  return found;
+}
+
+/// With n branches; `before`: the law with one less, if there is one.
+ViscoelasticFit fit_branches(const Problem& p, int n, const std::optional<PronyLaw>& before,
+                             std::span<const double> deviations) {
+  if (!p.settings.choice.times) {
+    const PronyLaw start = law_of_times(p.law, p.experiments, deviations, spread_times(p.window, n));
+    return without_zeros(p, fit_from_law(p, start, deviations, roughly(p.settings.fit)), deviations);
+  }
+  std::vector<PronyLaw> starts{law_of_branches(p.law, p.experiments, deviations, n)};
+  PronyLaw even = law_of_times(p.law, p.experiments, deviations, spread_times(p.window, n + 2));
+  if (std::ssize(even.shear) == n) starts.push_back(even);
+  if (before) starts.push_back(with_one_more(*before, p.window));
+  return lowest_from(p, starts, deviations);
+}
+
+/// The fewest branches whose information is within two of the least, of those without an objection; of all where there
+/// are none without.
+std::size_t choice_of(const std::vector<TriedBranches>& tried) {
+  const bool any = std::ranges::any_of(tried, [](const TriedBranches& t) { return t.objection.empty(); });
+  double least = std::numeric_limits<double>::infinity();
+  for (const TriedBranches& t : tried)
+    if (!any || t.objection.empty()) least = std::min(least, t.information);
+  for (std::size_t i = 0; i < tried.size(); ++i)
+    if ((!any || tried[i].objection.empty()) && tried[i].information <= least + worth_mention) return i;
+  return 0;
+}
+
+/// What a number of branches that was not chosen says of the data.
+void doubt_window(const std::vector<TriedBranches>& tried, std::size_t chosen, std::vector<std::string>& doubts) {
+  for (std::size_t i = chosen + 1; i < tried.size(); ++i) {
+    const double gain = tried[chosen].information - tried[i].information;
+    if (tried[i].objection.find("outside") == std::string::npos || gain < very_strong) continue;
+    doubts.push_back(fmt::format("with {} branches the Bayesian information is {:.3g} lower, but {}",
+                                 tried[i].n_branches, gain, tried[i].objection));
+    return;
+  }
+}
+
+struct Selection {
+  ViscoelasticFit fit;
+  std::vector<TriedBranches> tried{};
+  std::vector<std::string> doubts{};
+};
+
+Selection select(const Problem& p, std::span<const double> deviations) {
+  std::vector<ViscoelasticFit> fits;
+  Selection result;
+  std::optional<PronyLaw> before;
+  for (int n = p.settings.least_branches; n <= p.settings.most_branches; ++n) {
+    try {
+      fits.push_back(fit_branches(p, n, before, deviations));
+    } catch (const ComputationError& error) {
+      p.settings.say(fmt::format("{} branches: {}", n, error.what()));
+      continue;
+    }
+    before = fits.back().law;
+    const FitResult& found = fits.back().result;
+    result.tried.push_back({.n_branches = n,
+                            .rms = found.rms,
+                            .information = bayesian_information(found.sum_of_squares, found.residuals.size(),
+                                                                fits.back().parameters.size(), negligible_residual),
+                            .objection = objection_to(fits.back(), p.window)});
+    const TriedBranches& now = result.tried.back();
+    p.settings.say(fmt::format("{} branches: residuals {:.4g} times the noise, Bayesian information {:.6g}{}", n,
+                               now.rms, now.information, now.objection.empty() ? "" : "; " + now.objection));
+  }
+  if (fits.empty()) throw NoConvergence("no number of branches could be fitted");
+  const std::size_t chosen = choice_of(result.tried);
+  result.fit = std::move(fits[chosen]);
+  doubt_window(result.tried, chosen, result.doubts);
+  return result;
+}
+
+}  // namespace
+
+std::string objection_to(const ViscoelasticFit& fit, const TimeWindow& window) {
+  const std::string of = quantities_text({window.shortest, window.longest}, "s", " to ", 3);
+  for (std::size_t i = 0; i < fit.law.shear.size(); ++i) {
+    const double time = fit.law.shear[i].time;
+    if (fit.choice.times && (time < window.shortest || time > window.longest))
+      return fmt::format("time_{} = {} lies outside of the window of the data, {}, which do not determine this branch",
+                         i + 1, quantity_text(time, "s", 3), of);
+  }
+  for (std::size_t j = 0; j < fit.parameters.size() && fit.choice.times; ++j) {
+    const FitEstimate& e = fit.result.estimates[j];
+    if (e.at_bound) return fmt::format("{} is at its bound", fit.parameters[j].name);
+    if (fit.parameters[j].log_scale && !(e.standard_error < e.value))
+      return fmt::format("the data do not determine {}", fit.parameters[j].name);
+  }
+  return "";
+}
+
+ViscoelasticIdentification identify(const PronyLaw& law, const ViscoelasticExperiments& experiments,
+                                    const ViscoelasticSettings& settings) {
+  const Problem p{law, experiments, settings, time_window(experiments)};
+  ViscoelasticIdentification result;
+  result.deviations = first_deviations(experiments);
+  if (settings.least_branches > 0) {
+    // Noise by the law with the most branches, the same for all numbers: their residuals can be compared.
+    const ViscoelasticFit most = fit_branches(p, settings.most_branches, std::nullopt, result.deviations);
+    result.deviations = deviations(most.law, experiments);
+    Selection selected = select(p, result.deviations);
+    result.fit = std::move(selected.fit);
+    result.tried = std::move(selected.tried);
+    result.doubts = std::move(selected.doubts);
+  } else {
+    std::vector<PronyLaw> starts{law};
+    if (settings.choice.times && settings.choice.moduli)
+      starts.push_back(law_of_branches(law, experiments, result.deviations, static_cast<int>(law.shear.size())));
+    result.fit = lowest_from(p, starts, result.deviations);
+  }
+  for (int turn = 0; turn < reweightings; ++turn) {
+    result.deviations = deviations(result.fit.law, experiments);
+    result.fit = fit_from_law(p, result.fit.law, result.deviations, p.settings.fit);
+  }
+  if (const std::string objection = objection_to(result.fit, p.window); objection.find("outside") != std::string::npos)
+    result.doubts.insert(result.doubts.begin(), objection);
+  return result;
+}
+
+}  // namespace pfdm

@@ -1,0 +1,183 @@
+#include "solver/point/viscoelastic_start.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pfdm {
+namespace {
+
+constexpr int per_decade = 6;        // of the fine grid
+constexpr double small_part = 0.02;  // of all moduli: a branch that is added
+
+double sum_of_moduli(const PronyLaw& law) {
+  double sum = law.relaxed.mu;
+  for (const PronyBranch& branch : law.shear) sum += branch.modulus;
+  return sum;
+}
+
+double rms(const std::vector<double>& values) {
+  double sum = 0.0;
+  for (const double value : values) sum += value * value;
+  return std::sqrt(sum / static_cast<double>(values.size()));
+}
+
+/// Rows of the linear problem in the moduli.
+class LinearProblem {
+ public:
+  LinearProblem(const PronyLaw& law, std::span<const double> deviations, std::span<const double> times)
+      : law_(law), deviations_(deviations), units_{{.relaxed = 1.0}} {
+    for (const double time : times) units_.push_back({.relaxed = 0.0, .branches = {{1.0, time}}});
+  }
+
+  void add(const ViscoelasticExperiment& experiment) {
+    const double tension = 2.0 * (1.0 + law_.relaxed.poisson_ratio());
+    factor_ = experiment.deformation == Deformation::tension ? tension : 1.0;
+    for (const ViscoelasticExperiment::Channel& channel : experiment.channels) {
+      if (!experiment.is_frequency_sweep())
+        add_history(experiment, channel);
+      else
+        for (std::size_t i = 0; i < channel.values.size(); ++i) add_frequency(experiment, channel, i);
+      done_ += channel.values.size();
+    }
+  }
+
+  /// Of the relaxed modulus and of each branch.
+  Eigen::VectorXd solve() const {
+    const auto n = std::ssize(right_), k = std::ssize(units_);
+    Eigen::MatrixXd A(n, k);
+    for (Eigen::Index i = 0; i < n; ++i) A.row(i) = rows_[static_cast<std::size_t>(i)].transpose();
+    return non_negative_least_squares(A, Eigen::VectorXd::Map(right_.data(), n));
+  }
+
+ private:
+  /// Stresses by strains, whichever was followed.
+  void add_history(const ViscoelasticExperiment& experiment, const ViscoelasticExperiment::Channel& channel) {
+    ViscoelasticExperiment swapped = experiment;
+    swapped.follows_stress = false;
+    if (experiment.follows_stress) swapped.followed = channel.values;
+    swapped.channels = {ViscoelasticExperiment::Channel{}};
+    const std::vector<double>& stresses = experiment.follows_stress ? experiment.followed : channel.values;
+    const double stiffness = experiment.follows_stress ? rms(stresses) / rms(channel.values) : 1.0;
+    std::vector<std::vector<double>> columns;
+    for (const RelaxationModulus& unit : units_) columns.push_back(of_unit(swapped, unit));
+    for (std::size_t i = 0; i < stresses.size(); ++i) {
+      Eigen::VectorXd row(std::ssize(units_));
+      for (std::size_t j = 0; j < units_.size(); ++j) row[static_cast<Eigen::Index>(j)] = columns[j][i];
+      add_row(row, stresses[i], stiffness * deviations_[done_ + i]);
+    }
+  }
+
+  std::vector<double> of_unit(const ViscoelasticExperiment& experiment, const RelaxationModulus& unit) const {
+    std::vector<double> times = experiment.times, strains = experiment.followed;
+    if (experiment.ramp > 0.0) times.insert(times.begin(), -experiment.ramp), strains.insert(strains.begin(), 0.0);
+    std::vector<double> stresses = stress_response(unit, times, strains);
+    if (experiment.ramp > 0.0) stresses.erase(stresses.begin());
+    return stresses;
+  }
+
+  /// Of a loss factor: loss less the factor times storage is zero.
+  void add_frequency(const ViscoelasticExperiment& experiment, const ViscoelasticExperiment::Channel& channel,
+                     std::size_t i) {
+    const double value = channel.values[i];
+    const bool is_factor = channel.quantity == MeasuredQuantity::loss_factor;
+    Eigen::VectorXd row(std::ssize(units_));
+    for (std::size_t j = 0; j < units_.size(); ++j) {
+      const auto M = complex_modulus(units_[j], experiment.angular_frequencies[i]);
+      row[static_cast<Eigen::Index>(j)] = is_factor ? M.imag() - value * M.real()
+                                          : channel.quantity == MeasuredQuantity::loss_modulus ? M.imag()
+                                                                                               : M.real();
+    }
+    const double scale = is_factor ? factor_ * sum_of_moduli(law_) : 1.0;
+    add_row(row, is_factor ? 0.0 : value, scale * deviations_[done_ + i]);
+  }
+
+  void add_row(const Eigen::VectorXd& row, double right, double deviation) {
+    rows_.emplace_back(factor_ / deviation * row);
+    right_.push_back(right / deviation);
+  }
+
+  const PronyLaw& law_;
+  std::span<const double> deviations_;
+  std::vector<RelaxationModulus> units_;
+  std::vector<Eigen::VectorXd> rows_;
+  std::vector<double> right_;
+  std::size_t done_ = 0;  // values before
+  double factor_ = 1.0;   // modulus of the test over the shear modulus
+};
+
+PronyBranch joined(const PronyBranch& a, const PronyBranch& b) {
+  const double sum = a.modulus + b.modulus;
+  return {sum, std::exp((a.modulus * std::log(a.time) + b.modulus * std::log(b.time)) / sum)};
+}
+
+/// Joins branches nearer to each other than a factor, the nearest first, until at most `most` are left.
+void join_near(std::vector<PronyBranch>& branches, double factor, std::size_t most) {
+  while (branches.size() > 1) {
+    std::size_t nearest = 0;
+    for (std::size_t i = 1; i + 1 < branches.size(); ++i)
+      if (branches[i + 1].time / branches[i].time < branches[nearest + 1].time / branches[nearest].time) nearest = i;
+    const bool is_near = branches[nearest + 1].time / branches[nearest].time < factor;
+    if (!is_near && branches.size() <= most) return;
+    branches[nearest] = joined(branches[nearest], branches[nearest + 1]);
+    branches.erase(branches.begin() + static_cast<std::ptrdiff_t>(nearest) + 1);
+  }
+}
+
+}  // namespace
+
+std::vector<double> spread_times(const TimeWindow& window, int n) {
+  std::vector<double> times;
+  const double decades = std::log(window.longest / window.shortest);
+  for (int i = 0; i < n; ++i)
+    times.push_back(window.shortest * std::exp(decades * (n == 1 ? 0.5 : static_cast<double>(i) / (n - 1))));
+  return times;
+}
+
+PronyLaw law_of_times(const PronyLaw& law, const ViscoelasticExperiments& experiments,
+                      std::span<const double> deviations, std::span<const double> times) {
+  LinearProblem problem(law, deviations, times);
+  for (const ViscoelasticExperiment& experiment : experiments) problem.add(experiment);
+  const Eigen::VectorXd moduli = problem.solve();
+  const double sum = moduli.sum();
+  if (!(sum > 0.0)) {  // loss factors alone
+    PronyLaw even = law;
+    even.shear.clear();
+    for (const double time : times) even.shear.push_back({law.relaxed.mu, time});
+    return even;
+  }
+  PronyLaw result = law;
+  const double mu = std::max(moduli[0], 1e-3 * sum), nu = law.relaxed.poisson_ratio();
+  result.relaxed = from_young_poisson(2.0 * (1.0 + nu) * mu, nu);
+  result.shear.clear();
+  for (Eigen::Index i = 1; i < moduli.size(); ++i)
+    if (moduli[i] > 1e-9 * sum) result.shear.push_back({moduli[i], times[static_cast<std::size_t>(i) - 1]});
+  return result;
+}
+
+PronyLaw law_of_branches(const PronyLaw& law, const ViscoelasticExperiments& experiments,
+                         std::span<const double> deviations, int n) {
+  const TimeWindow window = time_window(experiments);
+  const double decades = std::log10(window.longest / window.shortest);
+  const int points = std::clamp(static_cast<int>(std::ceil(per_decade * decades)) + 1, 2, 80);
+  PronyLaw result = law_of_times(law, experiments, deviations, spread_times(window, points));
+  join_near(result.shear, std::pow(10.0, 1.5 / per_decade), static_cast<std::size_t>(n));
+  while (std::ssize(result.shear) < n) result = with_one_more(result, window);
+  return result;
+}
+
+PronyLaw with_one_more(const PronyLaw& law, const TimeWindow& window) {
+  std::vector<double> places{window.shortest};
+  for (const PronyBranch& branch : law.shear)
+    places.push_back(std::clamp(branch.time, window.shortest, window.longest));
+  places.push_back(window.longest);
+  std::ranges::sort(places);
+  std::size_t widest = 0;
+  for (std::size_t i = 1; i + 1 < places.size(); ++i)
+    if (places[i + 1] / places[i] > places[widest + 1] / places[widest]) widest = i;
+  PronyLaw result = law;
+  result.shear.push_back({small_part * sum_of_moduli(law), std::sqrt(places[widest] * places[widest + 1])});
+  std::ranges::sort(result.shear, {}, &PronyBranch::time);
+  return result;
+}
+
+}  // namespace pfdm
