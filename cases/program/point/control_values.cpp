@@ -93,4 +93,12 @@ void read_control_value(const ConfigValue& value, bool is_stress, const std::vec
   follow(line, times, condition);
 }
 
+std::vector<double> control_times(const ConfigTable& table, const std::filesystem::path& case_directory) {
+  const CsvTable file = read_csv_of(table, case_directory);
+  std::vector<double> times = read_times(table, file);
+  leave_out_gaps(table, std::array{&times});
+  begin_at_zero(table, times);
+  return times;
+}
+
 }  // namespace pfdm

@@ -15,4 +15,7 @@ void read_control_value(const ConfigValue& value, bool is_stress, const std::vec
                         const std::filesystem::path& case_directory, std::vector<std::filesystem::path>& files,
                         LoadSegment::Condition& condition);
 
+/// The times of the rows of its CSV file that have one, from zero on.
+std::vector<double> control_times(const ConfigTable& table, const std::filesystem::path& case_directory);
+
 }  // namespace pfdm

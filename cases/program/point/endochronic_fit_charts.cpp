@@ -85,7 +85,7 @@ Chart strain_fit_chart(const ExperimentMisfit& experiment, const CsvTable& curve
 
 }  // namespace
 
-Table endochronic_estimates(const FitReport& fit) {
+Table point_estimates(const FitReport& fit) {
   Table table{
       .caption = fmt::format("Fit, method {}: {}", fit.method, verdict_text(fit.found)),
       .rows = {{"parameter", "first guess", "estimate", fmt::format("{:g} % interval", 100.0 * fit.confidence)}},

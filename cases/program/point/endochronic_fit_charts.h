@@ -10,7 +10,7 @@
 namespace pfdm {
 
 /// A table of the estimates with their intervals.
-Table endochronic_estimates(const FitReport& fit);
+Table point_estimates(const FitReport& fit);
 
 /// Charts of four experiments at most, by the curves in the results directory.
 std::vector<PageRow> endochronic_fit_rows(const FitReport& fit, const std::filesystem::path& results);

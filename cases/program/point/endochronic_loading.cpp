@@ -1,6 +1,5 @@
 #include "cases/program/point/endochronic_loading.h"
 
-#include "cases/program/input/fields/csv_columns.h"
 #include "cases/program/point/control_values.h"
 #include "cases/program/point/endochronic_case_keys.h"
 
@@ -29,21 +28,12 @@ std::optional<ConfigTable> control_table(const Draft& draft) {
   return draft.table.table("control");
 }
 
-/// Of the rows of a file that have one.
-std::vector<double> file_times(const ConfigTable& table, const std::filesystem::path& directory) {
-  const CsvTable file = read_csv_of(table, directory);
-  std::vector<double> times = read_times(table, file);
-  leave_out_gaps(table, std::array{&times});
-  begin_at_zero(table, times);
-  return times;
-}
-
 /// From duration and increments, or the times of the file that a component follows.
 std::vector<double> segment_times(const Draft& draft) {
   if (!draft.table.has("duration") && !draft.table.has("increments"))
     if (const auto control = control_table(draft))
       for (const auto& [key, value] : control->entries())
-        if (value.is_table() && value.table().has("csv")) return file_times(value.table(), draft.directory);
+        if (value.is_table() && value.table().has("csv")) return control_times(value.table(), draft.directory);
   const double duration = draft.table.quantity("duration");
   const auto n = draft.table.integer("increments");
   std::vector<double> times;

@@ -210,7 +210,7 @@ ReportPage endochronic_page(const EndochronicCase& point, const std::string& nam
       .rows = {}};
   PageRow tables{.blocks = {parameter_table(point.law)}};
   if (run) tables.blocks.emplace_back(figures_table(run->summary));
-  if (fit) tables.blocks.emplace_back(endochronic_estimates(*fit));
+  if (fit) tables.blocks.emplace_back(point_estimates(*fit));
   page.rows.push_back(std::move(tables));
   if (run)
     for (PageRow& row : run_rows(point, run->history)) page.rows.push_back(std::move(row));

@@ -6,6 +6,7 @@
 #include "cases/program/input/config/heat_units.h"
 #include "cases/program/input/laws/endochronic_keys.h"
 #include "cases/program/input/laws/law_reader.h"
+#include "cases/program/input/laws/prony_keys.h"
 #include "physics/elasticity/effective_stiffness.h"
 
 #include <fmt/format.h>
@@ -80,18 +81,6 @@ const KeyTable& band_keys() {
       .keys = {
           {"width", quantity(dimension::length, range::positive), "", "Thickness of the band between the two regions."},
           {"between", list(text("region"), 2, 2), "", "Names of the two regions that the band lies between."}}};
-  return table;
-}
-
-const KeyTable& branch_keys() {
-  using namespace keys;
-  static const KeyTable table{
-      .name = "shear_branches[], bulk_branches[]",
-      .sentence = "A branch of a viscoelastic material: spring and dashpot in series.",
-      .keys = {{"modulus", quantity(dimension::stress, range::positive), "",
-                "Modulus of the branch's spring, in shear or in bulk."},
-               {"time", quantity(dimension::time, range::positive), "",
-                "Relaxation time tau of the branch, the dashpot's viscosity over the modulus."}}};
   return table;
 }
 
@@ -189,12 +178,9 @@ const KeyTable& material_keys() {
             {"isotropic_hardening", quantity(dimension::stress, range::not_negative), "0",
              "Slope of the yield stress by the equivalent plastic strain.", j2},
             {"kinematic_hardening", quantity(dimension::stress, range::not_negative), "0",
-             "Slope of the back stress by the equivalent plastic strain.", j2},
-            {"shear_branches", tables(branch_keys), "none",
-             "Prony series of the shear modulus beside the relaxed one of young_modulus and poisson_ratio.", "prony"},
-            {"bulk_branches", tables(branch_keys), "none", "Prony series of the bulk modulus beside the relaxed one.",
-             "prony"},
-            {"driven_by", choice("driving energy", {"equilibrium", "stored"}), "\"equilibrium\"",
+             "Slope of the back stress by the equivalent plastic strain.", j2}},
+           prony_branch_keys("prony"),
+           {{"driven_by", choice("driving energy", {"equilibrium", "stored"}), "\"equilibrium\"",
              "Energy that drives damage: of the relaxed elasticity, or all that is stored, also in the branches.",
              "prony"},
             {"volumetric", choice("volumetric energy", {"quadratic", "logarithmic"}), "\"quadratic\"",

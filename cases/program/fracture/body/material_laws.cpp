@@ -1,6 +1,7 @@
 #include "cases/program/fracture/body/material_laws.h"
 
 #include "cases/program/input/laws/endochronic_reader.h"
+#include "cases/program/input/laws/prony_reader.h"
 #include "physics/materials/endochronic_material.h"
 #include "physics/materials/hyperelastic.h"
 #include "physics/materials/j2_plasticity.h"
@@ -37,25 +38,14 @@ constexpr MaterialLaw j2_plasticity{
         },
 };
 
-std::vector<PronyBranch> read_branches(const ConfigTable& material, const char* key) {
-  std::vector<PronyBranch> branches;
-  if (!material.has(key)) return branches;
-  for (const ConfigTable& branch : material.tables(key))
-    branches.push_back({branch.quantity("modulus"), branch.quantity("time")});
-  return branches;
-}
-
 constexpr MaterialLaw prony{
     .name = "prony",
     .description = "linear viscoelasticity, a generalised Maxwell body; shear_branches, bulk_branches, driven_by",
     .read =
         [](const ConfigTable& material) {
-          return make_prony({.relaxed = read_elasticity(material),
-                             .shear = read_branches(material, "shear_branches"),
-                             .bulk = read_branches(material, "bulk_branches"),
-                             .drive = material.choice("driven_by", "equilibrium") == "stored"
-                                          ? PronyDrive::stored
-                                          : PronyDrive::equilibrium});
+          PronyLaw law = read_prony_series(material);
+          if (material.choice("driven_by", "equilibrium") == "stored") law.drive = PronyDrive::stored;
+          return make_prony(law);
         },
 };
 

@@ -38,7 +38,9 @@ double unit_of_column(const ConfigTable& table, std::string_view unit_key, const
 
 constexpr Range column_range{1.0, 1e6, false, "the number of a column, from 1"};
 
-std::size_t number_of_column(const ConfigValue& name, const CsvTable& file) {
+}  // namespace
+
+std::size_t find_column(const ConfigValue& name, const CsvTable& file) {
   if (name.is_string()) return name.in_context([&] { return file.find(name.string()); });
   const auto number = static_cast<std::size_t>(name.integer(column_range));
   if (number > file.names.size())
@@ -47,8 +49,6 @@ std::size_t number_of_column(const ConfigValue& name, const CsvTable& file) {
   return number - 1;
 }
 
-}  // namespace
-
 double read_unit(const ConfigTable& table, std::string_view key, const Dimension& due) {
   const auto unit = table.find(key);
   return unit ? unit->in_context([&] { return unit_in_si(unit->string(), due); }) : 1.0;
@@ -56,7 +56,7 @@ double read_unit(const ConfigTable& table, std::string_view key, const Dimension
 
 std::vector<double> read_column(const ConfigTable& table, const CsvTable& file, std::string_view column_key,
                                 std::string_view unit_key, const Dimension& due) {
-  const std::size_t column = number_of_column(table.at(column_key), file);
+  const std::size_t column = find_column(table.at(column_key), file);
   table.at(column_key).in_context([&] { file.require_numbers(column); });
   const double factor = unit_of_column(table, unit_key, file, column, due);
   std::vector<double> values = file.columns[column];

@@ -21,6 +21,9 @@ double read_unit(const ConfigTable& table, std::string_view key, const Dimension
 std::vector<double> read_column(const ConfigTable& table, const CsvTable& file, std::string_view column_key,
                                 std::string_view unit_key, const Dimension& due);
 
+/// Which column of the file a name or a number from 1 means. Throws InputError where there is none.
+std::size_t find_column(const ConfigValue& name, const CsvTable& file);
+
 /// Leaves out the rows of columns of one file in which one of them has an empty entry; `table` remarks how many. Throws
 /// InputError if none is left.
 void leave_out_gaps(const ConfigTable& table, std::span<std::vector<double>* const> columns);

@@ -1,0 +1,39 @@
+#include "cases/program/input/laws/prony_reader.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace pfdm {
+namespace {
+
+std::vector<PronyBranch> read_branches(const ConfigTable& material, std::string_view key) {
+  std::vector<PronyBranch> branches;
+  if (!material.has(key)) return branches;
+  for (const ConfigTable& branch : material.tables(key))
+    branches.push_back({branch.quantity("modulus"), branch.quantity("time")});
+  return branches;
+}
+
+std::string branches_toml(std::string_view key, const std::vector<PronyBranch>& branches, int digits) {
+  if (branches.empty()) return "";
+  std::vector<std::string> rows;
+  for (const auto& [modulus, time] : branches)
+    rows.push_back(fmt::format("  {{ modulus = \"{1:.{0}g} Pa\", time = \"{2:.{0}g} s\" }},\n", digits, modulus, time));
+  return fmt::format("{} = [\n{}]\n", key, fmt::join(rows, ""));
+}
+
+}  // namespace
+
+PronyLaw read_prony_series(const ConfigTable& material) {
+  return {.relaxed = from_young_poisson(material.quantity("young_modulus"), material.number("poisson_ratio")),
+          .shear = read_branches(material, "shear_branches"),
+          .bulk = read_branches(material, "bulk_branches")};
+}
+
+std::string to_toml(const PronyLaw& law, int digits) {
+  return fmt::format("young_modulus = \"{1:.{0}g} Pa\"\npoisson_ratio = {2:.{0}g}\n", digits,
+                     law.relaxed.young_modulus(), law.relaxed.poisson_ratio()) +
+         branches_toml("shear_branches", law.shear, digits) + branches_toml("bulk_branches", law.bulk, digits);
+}
+
+}  // namespace pfdm

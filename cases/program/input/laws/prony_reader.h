@@ -1,0 +1,17 @@
+#pragma once
+// A Prony series out of a case, and back into one.
+
+#include "cases/program/input/config/config.h"
+#include "physics/materials/prony.h"
+
+#include <string>
+
+namespace pfdm {
+
+/// Of the keys young_modulus, poisson_ratio, shear_branches and bulk_branches, which were checked.
+PronyLaw read_prony_series(const ConfigTable& material);
+
+/// These keys, a line each, with `digits` significant digits.
+std::string to_toml(const PronyLaw& law, int digits = 15);
+
+}  // namespace pfdm
