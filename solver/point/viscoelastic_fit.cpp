@@ -1,11 +1,12 @@
 #include "solver/point/viscoelastic_fit.h"
 
+#include "physics/quantity_text.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 namespace pfdm {
 namespace {
@@ -127,10 +128,14 @@ TimeWindow time_window(const ViscoelasticExperiments& experiments) {
     if (!path.times.empty()) window.longest = std::max(window.longest, path.times.back() - path.times.front());
     for (const double w : experiment.angular_frequencies) {
       window.shortest = std::min(window.shortest, 1.0 / w);
-      window.longest = std::max(window.longest, 2.0 * std::numbers::pi / w);
+      window.longest = std::max(window.longest, 1.0 / w);
     }
   }
   return window;
+}
+
+std::string text_of(const TimeWindow& window) {
+  return fmt::format("{} to {}", quantity_text(window.shortest, "s", 3), quantity_text(window.longest, "s", 3));
 }
 
 std::vector<FitParameter> fit_parameters(const PronyLaw& law, const ViscoelasticChoice& choice,

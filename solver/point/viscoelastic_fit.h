@@ -42,11 +42,13 @@ struct ViscoelasticExperiment {
 using ViscoelasticExperiments = std::vector<ViscoelasticExperiment>;
 
 /// Relaxation times that tests can show [s]: from the shortest step of time (the inverse of the highest angular
-/// frequency) to the longest duration (period).
+/// frequency) to the longest duration (the inverse of the lowest).
 struct TimeWindow {
   double shortest = 0.0, longest = 0.0;
 };
 TimeWindow time_window(const ViscoelasticExperiments& experiments);
+/// "1.6 us to 10 ks"
+std::string text_of(const TimeWindow& window);
 
 /// What is estimated. Bulk branches are not.
 struct ViscoelasticChoice {

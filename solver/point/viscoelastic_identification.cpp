@@ -15,7 +15,7 @@ namespace {
 
 constexpr double negligible_residual = 1e-3;  // over the noise: rounding, which more branches do not improve
 constexpr double worth_mention = 2.0;         // of the information: fewer branches are taken
-constexpr double very_strong = 10.0;          // likewise: a branch that is not determined is in the data
+constexpr double very_strong = 10.0;          // likewise: branches that are not determined are in the data
 constexpr int reweightings = 2;
 
 struct Problem {
@@ -23,7 +23,20 @@ struct Problem {
   const ViscoelasticExperiments& experiments;
   const ViscoelasticSettings& settings;
   TimeWindow window;
+  int most_branches = 0;  ///< of the settings, or as many as there are values for
 };
+
+/// Throws InputError if there are too few values for the least number of branches.
+int most_branches(const ViscoelasticExperiments& experiments, const ViscoelasticSettings& settings) {
+  const auto n = static_cast<int>(std::min<std::size_t>(n_measured(experiments), 1000));
+  const int others = (settings.choice.young_modulus ? 1 : 0) + (settings.choice.poisson_ratio ? 1 : 0);
+  const int most = std::min(settings.most_branches, (n - others) / (settings.choice.times ? 2 : 1));
+  if (most < settings.least_branches)
+    throw InputError(fmt::format("{} measured values cannot determine {} branches", n, settings.least_branches));
+  if (most < settings.most_branches)
+    settings.say(fmt::format("no more than {} branches are tried: there are {} measured values", most, n));
+  return most;
+}
 
 ViscoelasticFit fit_from_law(const Problem& p, const PronyLaw& start, std::span<const double> deviations,
                              const FitSettings& settings) {
@@ -85,40 +98,32 @@ ViscoelasticFit fit_branches(const Problem& p, int n, const std::optional<PronyL
   return lowest_from(p, starts, deviations);
 }
 
-/// The fewest branches whose information is within two of the least, of those without an objection; of all where there
-/// are none without.
+/// The fewest branches whose information is within two of the least, of those without an objection; of all where these
+/// meet the data much better.
 std::size_t choice_of(const std::vector<TriedBranches>& tried) {
-  const bool any = std::ranges::any_of(tried, [](const TriedBranches& t) { return t.objection.empty(); });
-  double least = std::numeric_limits<double>::infinity();
-  for (const TriedBranches& t : tried)
-    if (!any || t.objection.empty()) least = std::min(least, t.information);
-  for (std::size_t i = 0; i < tried.size(); ++i)
-    if ((!any || tried[i].objection.empty()) && tried[i].information <= least + worth_mention) return i;
-  return 0;
-}
-
-/// What a number of branches that was not chosen says of the data.
-void doubt_window(const std::vector<TriedBranches>& tried, std::size_t chosen, std::vector<std::string>& doubts) {
-  for (std::size_t i = chosen + 1; i < tried.size(); ++i) {
-    const double gain = tried[chosen].information - tried[i].information;
-    if (tried[i].objection.find("outside") == std::string::npos || gain < very_strong) continue;
-    doubts.push_back(fmt::format("with {} branches the Bayesian information is {:.3g} lower, but {}",
-                                 tried[i].n_branches, gain, tried[i].objection));
-    return;
+  constexpr double none = std::numeric_limits<double>::infinity();
+  double least = none, determined = none;
+  for (const TriedBranches& t : tried) {
+    least = std::min(least, t.information);
+    if (t.objection.empty()) determined = std::min(determined, t.information);
   }
+  const bool of_all = determined > least + very_strong;
+  const double limit = (of_all ? least : determined) + worth_mention;
+  for (std::size_t i = 0; i < tried.size(); ++i)
+    if ((of_all || tried[i].objection.empty()) && tried[i].information <= limit) return i;
+  return 0;
 }
 
 struct Selection {
   ViscoelasticFit fit;
   std::vector<TriedBranches> tried{};
-  std::vector<std::string> doubts{};
 };
 
 Selection select(const Problem& p, std::span<const double> deviations) {
   std::vector<ViscoelasticFit> fits;
   Selection result;
   std::optional<PronyLaw> before;
-  for (int n = p.settings.least_branches; n <= p.settings.most_branches; ++n) {
+  for (int n = p.settings.least_branches; n <= p.most_branches; ++n) {
     try {
       fits.push_back(fit_branches(p, n, before, deviations));
     } catch (const ComputationError& error) {
@@ -133,48 +138,56 @@ Selection select(const Problem& p, std::span<const double> deviations) {
                                                                 fits.back().parameters.size(), negligible_residual),
                             .objection = objection_to(fits.back(), p.window)});
     const TriedBranches& now = result.tried.back();
-    p.settings.say(fmt::format("{} branches: residuals {:.4g} times the noise, Bayesian information {:.6g}{}", n,
-                               now.rms, now.information, now.objection.empty() ? "" : "; " + now.objection));
+    p.settings.say(fmt::format("{} branch{}: residuals {:.4g} times the noise, Bayesian information {:.6g}{}", n,
+                               n == 1 ? "" : "es", now.rms, now.information,
+                               now.objection.empty() ? "" : "; " + now.objection));
   }
   if (fits.empty()) throw NoConvergence("no number of branches could be fitted");
   const std::size_t chosen = choice_of(result.tried);
   result.fit = std::move(fits[chosen]);
-  doubt_window(result.tried, chosen, result.doubts);
   return result;
 }
 
 }  // namespace
 
 std::string objection_to(const ViscoelasticFit& fit, const TimeWindow& window) {
-  const std::string of = quantities_text({window.shortest, window.longest}, "s", " to ", 3);
-  for (std::size_t i = 0; i < fit.law.shear.size(); ++i) {
-    const double time = fit.law.shear[i].time;
-    if (fit.choice.times && (time < window.shortest || time > window.longest))
-      return fmt::format("time_{} = {} lies outside of the window of the data, {}, which do not determine this branch",
-                         i + 1, quantity_text(time, "s", 3), of);
-  }
-  for (std::size_t j = 0; j < fit.parameters.size() && fit.choice.times; ++j) {
+  if (!fit.choice.times) return "";
+  const auto is_outside = [&](double time) { return time < window.shortest || time > window.longest; };
+  const auto object = [&](const FitParameter& p, const std::string& what) {
+    return fmt::format(
+        "{} {} outside of the window of the data, {}: longer, slower or faster tests would determine this branch",
+        p.name, what, text_of(window));
+  };
+  std::string vague;
+  for (std::size_t j = 0; j < fit.parameters.size(); ++j) {
+    const FitParameter& p = fit.parameters[j];
     const FitEstimate& e = fit.result.estimates[j];
-    if (e.at_bound) return fmt::format("{} is at its bound", fit.parameters[j].name);
-    if (fit.parameters[j].log_scale && !(e.standard_error < e.value))
-      return fmt::format("the data do not determine {}", fit.parameters[j].name);
+    if (p.unit == "s" && is_outside(e.value))
+      return object(p, fmt::format("= {} lies", quantity_text(e.value, "s", 3)));
+    if (!vague.empty()) continue;
+    if (e.at_bound)
+      vague = fmt::format("{} is at its bound", p.name);
+    else if (p.log_scale && !(e.standard_error < e.value))
+      vague = fmt::format("the data do not determine {}", p.name);
+    else if (p.unit == "s" && (is_outside(e.lower_95) || is_outside(e.upper_95)))
+      vague = object(p, fmt::format("= {}, between {} and {}, may lie", quantity_text(e.value, "s", 3),
+                                    quantity_text(e.lower_95, "s", 3), quantity_text(e.upper_95, "s", 3)));
   }
-  return "";
+  return vague;
 }
 
 ViscoelasticIdentification identify(const PronyLaw& law, const ViscoelasticExperiments& experiments,
                                     const ViscoelasticSettings& settings) {
-  const Problem p{law, experiments, settings, time_window(experiments)};
+  const Problem p{law, experiments, settings, time_window(experiments), most_branches(experiments, settings)};
   ViscoelasticIdentification result;
   result.deviations = first_deviations(experiments);
   if (settings.least_branches > 0) {
     // Noise by the law with the most branches, the same for all numbers: their residuals can be compared.
-    const ViscoelasticFit most = fit_branches(p, settings.most_branches, std::nullopt, result.deviations);
+    const ViscoelasticFit most = fit_branches(p, p.most_branches, std::nullopt, result.deviations);
     result.deviations = deviations(most.law, experiments);
     Selection selected = select(p, result.deviations);
     result.fit = std::move(selected.fit);
     result.tried = std::move(selected.tried);
-    result.doubts = std::move(selected.doubts);
   } else {
     std::vector<PronyLaw> starts{law};
     if (settings.choice.times && settings.choice.moduli)
@@ -185,8 +198,8 @@ ViscoelasticIdentification identify(const PronyLaw& law, const ViscoelasticExper
     result.deviations = deviations(result.fit.law, experiments);
     result.fit = fit_from_law(p, result.fit.law, result.deviations, p.settings.fit);
   }
-  if (const std::string objection = objection_to(result.fit, p.window); objection.find("outside") != std::string::npos)
-    result.doubts.insert(result.doubts.begin(), objection);
+  if (const std::string objection = objection_to(result.fit, p.window); !objection.empty())
+    result.doubts.push_back(objection);
   return result;
 }
 

@@ -87,8 +87,15 @@ class LinearProblem {
                                           : channel.quantity == MeasuredQuantity::loss_modulus ? M.imag()
                                                                                                : M.real();
     }
-    const double scale = is_factor ? factor_ * sum_of_moduli(law_) : 1.0;
+    const double scale = is_factor ? storage_at(experiment, i) : 1.0;
     add_row(row, is_factor ? 0.0 : value, scale * deviations_[done_ + i]);
+  }
+
+  /// Measured or, of loss factors alone, as large as the law's moduli.
+  double storage_at(const ViscoelasticExperiment& experiment, std::size_t i) const {
+    for (const ViscoelasticExperiment::Channel& channel : experiment.channels)
+      if (channel.quantity == MeasuredQuantity::storage_modulus) return channel.values[i];
+    return factor_ * sum_of_moduli(law_);
   }
 
   void add_row(const Eigen::VectorXd& row, double right, double deviation) {
