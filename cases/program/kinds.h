@@ -11,8 +11,8 @@ namespace pfdm {
 std::span<const CaseKind> case_kinds();
 
 /// The names of all kinds that there are, in the full program's order.
-inline constexpr std::string_view all_kind_names[] = {"chain",      "endochronic",   "fracture",
-                                                      "homogenize", "mass_material", "plate"};
+inline constexpr std::string_view all_kind_names[] = {"chain",         "endochronic", "fracture",    "homogenize",
+                                                      "mass_material", "plate",       "viscoelastic"};
 
 /// False for a kind that there is and that this executable was built without.
 bool knows_kind(const CaseFile& file);

@@ -84,6 +84,8 @@ set(rooms
     "cases/program/chain: physics solver/calibration postproc/files postproc/page cases/program/input cases/program/session"
     "cases/program/point: physics solver/point postproc/files postproc/curves postproc/point postproc/page cases/program/input
      cases/program/session cases/program/studies"
+    "cases/program/viscoelastic: physics solver/point postproc/files postproc/curves postproc/point postproc/page cases/program/input
+     cases/program/session cases/program/studies cases/program/point"
     "cases/program/vibration: physics solver/vibration postproc/files postproc/curves postproc/vibration postproc/page postproc/records
      cases/program/input cases/program/session cases/program/studies"
     "cases/program/fracture/body: physics mesh mesh/search mesh/surfaces mesh/generators mesh/files solver/momentum solver/fracture postproc/files
@@ -112,8 +114,8 @@ set(rooms
     "cases/python/extension: physics mesh mesh/files solver solver/fracture solver/point solver/vibration postproc/curves
      postproc/fields postproc/point cases/program/input cases/program/point cases/program/vibration cases/program/fracture"
     "cases/program: physics solver postproc/files postproc/curves postproc/exports
-     cases/program/input cases/program/reference cases/program/session cases/program/studies cases/program/point cases/program/vibration cases/program/fracture
-     cases/program/homogenization cases/program/plate cases/program/chain")
+     cases/program/input cases/program/reference cases/program/session cases/program/studies cases/program/point cases/program/viscoelastic
+     cases/program/vibration cases/program/fracture cases/program/homogenization cases/program/plate cases/program/chain")
 set(complaints "")
 
 set(open_folders physics solver/momentum solver/fracture solver/vibration postproc/exports cases/program/input cases/program/session

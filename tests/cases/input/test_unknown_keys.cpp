@@ -81,7 +81,7 @@ void expect_complete_lists(const CaseFile& file) {
 TEST(UnknownKeys, GetTheWholeListOfTheirTable) {
   for (const char* name :
        {"bar_fit", "glass_bead_quick", "glass_bead_radius", "cohesive_sphere", "l_panel_fit", "surfing_crack",
-        "goodier_sphere", "endochronic_calibration", "endochronic_rates", "htpb_soft_sweep"})
+        "goodier_sphere", "endochronic_calibration", "endochronic_rates", "htpb_soft_sweep", "prony_calibration"})
     expect_complete_lists(open_case(std::filesystem::path(PFDM_CASES_DIR) / name));
 }
 

@@ -76,6 +76,10 @@ TEST(Commands, SayWhichTableIsMissing) {
   expect_wrong({"fit", directory.path().string()}, "cases/bar_fit has one");
   expect_wrong({"sweep", directory.path().string()}, "the case has no [sweep] table; it needs a method and");
   expect_wrong({"fit", (shipped / "endochronic_uniaxial").string()}, "cases/endochronic_calibration has one");
+  const TemporaryCase bulk(
+      "kind = \"viscoelastic\"\ntitle = \"x\"\nmaterial = { young_modulus = \"1 MPa\", poisson_ratio = 0.4 }\n"
+      "frequency_sweep = { from = \"1 Hz\", to = \"2 Hz\" }\n");
+  expect_wrong({"fit", bulk.path().string()}, "cases/prony_calibration has one");
   EXPECT_TRUE(fs::exists(shipped / "bar_fit") && fs::exists(shipped / "glass_bead_radius"));
 }
 

@@ -1,0 +1,284 @@
+#include "cases/program/viscoelastic/viscoelastic_fit_case.h"
+
+#include "cases/program/input/fields/csv_columns.h"
+#include "cases/program/point/endochronic_fit_case.h"
+#include "cases/program/viscoelastic/viscoelastic_keys.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+namespace pfdm {
+namespace {
+
+using Channel = ViscoelasticExperiment::Channel;
+
+constexpr Range part_range{0.0, 1.0, true, "above 0 and below 1"};
+
+struct ChannelKey {
+  const char* key;
+  MeasuredQuantity quantity;
+};
+constexpr std::array dma_channels{ChannelKey{"storage_modulus", MeasuredQuantity::storage_modulus},
+                                  ChannelKey{"loss_modulus", MeasuredQuantity::loss_modulus},
+                                  ChannelKey{"loss_factor", MeasuredQuantity::loss_factor}};
+
+const Dimension& dimension_of_channel(MeasuredQuantity quantity) {
+  return unit_of(quantity) == "Pa" ? dimension::stress : dimension::number;
+}
+
+std::vector<double> read_followed_column(const ConfigTable& test, const char* key, const CsvTable& file,
+                                         const Dimension& due) {
+  return read_column(test.table(key).with_keys(test_column_keys(), "followed"), file, "column", "unit", due);
+}
+
+void read_noise(const ConfigTable& column, const Dimension& due, Channel& channel) {
+  if (column.has("noise") && column.has("relative_noise"))
+    throw column.error("either noise or relative_noise, not both");
+  if (const auto part = column.find("relative_noise"))
+    channel.relative_noise =
+        part->is_string() ? part->quantity(dimension::number, part_range) : part->number(part_range);
+  if (!column.has("noise")) return;
+  const ConfigValue noise = column.at("noise");
+  if (!noise.is_string() && column.has("unit"))
+    throw noise.error(fmt::format("the column has a unit, so the noise needs one too, as \"{} {}\"",
+                                  noise.number(range::positive), column.string("unit")));
+  const bool is_stress = due.name == dimension::stress.name;
+  channel.noise = is_stress || noise.is_string() ? noise.quantity(due, range::positive) : noise.number(range::positive);
+}
+
+Channel read_measured_column(const ConfigTable& test, const char* key, MeasuredQuantity quantity,
+                             const CsvTable& file) {
+  const ConfigTable column = test.table(key).with_keys(test_column_keys(), "measured");
+  const Dimension& due = dimension_of_channel(quantity);
+  Channel channel{.quantity = quantity, .values = read_column(column, file, "column", "unit", due)};
+  read_noise(column, due, channel);
+  return channel;
+}
+
+/// The end of a name after its quantity, "Hz" of f_Hz.
+std::string unit_at_end_of(const std::string& name) {
+  for (const char* per : {"rad/s", "rad_per_s"})
+    if (name.ends_with(per)) return "rad/s";
+  const std::size_t at = name.rfind('_');
+  const std::string end = at == std::string::npos ? "" : name.substr(at + 1);
+  return end.ends_with("Hz") ? end : "";
+}
+
+/// rad/s of one unit of the column. UDUNITS takes a radian for 1 and would call Hz and rad/s the same.
+double angular_unit(const ConfigTable& column, const CsvTable& file, std::size_t at) {
+  const ConfigValue named = column.at("column");
+  const std::string of_units = file.units.empty() || file.units[at] == "-" ? "" : file.units[at];
+  const std::string in_file = of_units.empty() ? unit_at_end_of(file.names[at]) : of_units;
+  const std::string in_case = column.string("unit", "");
+  const auto factor = [&](std::string unit, const ConfigValue& said) {
+    std::erase(unit, ' ');
+    if (unit == "rad/s" || unit == "rads^-1" || unit == "rads-1") return 1.0;
+    if (unit.ends_with("Hz") && is_unit_of(unit, dimension::frequency))
+      return 2.0 * std::numbers::pi * unit_in_si(unit, dimension::frequency);
+    throw said.error(fmt::format("\"{}\" is no unit of a frequency here: \"Hz\", with any prefix, or \"rad/s\"", unit));
+  };
+  if (in_case.empty() && in_file.empty())
+    throw named.error("the file does not say the unit of the frequency: unit = \"Hz\" or unit = \"rad/s\"");
+  if (in_case.empty()) return factor(in_file, named);
+  const double said = factor(in_case, column.at("unit"));
+  if (!in_file.empty() && std::abs(factor(in_file, named) / said - 1.0) > 1e-9)
+    throw column.at("unit").error(
+        fmt::format("the file itself says that the unit of \"{}\" is \"{}\"", file.names[at], in_file));
+  return said;
+}
+
+std::vector<double> read_angular_frequencies(const ConfigTable& test, const CsvTable& file) {
+  const ConfigTable column = test.table("frequency");
+  const ConfigValue name = column.at("column");
+  const std::size_t at = find_column(name, file);
+  name.in_context([&] { file.require_numbers(at); });
+  const double unit = angular_unit(column, file, at);
+  std::vector<double> frequencies = file.columns[at];
+  for (double& w : frequencies) w *= unit;
+  return frequencies;
+}
+
+void refuse(const ConfigTable& test, std::initializer_list<const char*> keys, std::string_view why) {
+  for (const char* key : keys)
+    if (test.has(key)) throw test.at(key).error(why);
+}
+
+/// Rows by rising frequency: instruments also sweep down.
+void sort_by_frequency(ViscoelasticExperiment& experiment) {
+  std::vector<std::size_t> order(experiment.angular_frequencies.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::stable_sort(order, {}, [&](std::size_t i) { return experiment.angular_frequencies[i]; });
+  const auto sorted = [&](const std::vector<double>& values) {
+    std::vector<double> result;
+    for (const std::size_t i : order) result.push_back(values[i]);
+    return result;
+  };
+  for (Channel& channel : experiment.channels) channel.values = sorted(channel.values);
+  experiment.angular_frequencies = sorted(experiment.angular_frequencies);
+}
+
+void read_dma(const ConfigTable& test, const CsvTable& file, ViscoelasticExperiment& experiment) {
+  refuse(test, {"strain", "stress", "controlled", "ramp", "time", "time_unit"},
+         "a test with a frequency is DMA: it has no history of strain and stress");
+  experiment.angular_frequencies = read_angular_frequencies(test, file);
+  for (const ChannelKey& channel : dma_channels)
+    if (test.has(channel.key))
+      experiment.channels.push_back(read_measured_column(test, channel.key, channel.quantity, file));
+  if (experiment.channels.empty())
+    throw test.error(
+        "DMA needs storage_modulus, loss_modulus or loss_factor, as in storage_modulus = { column = "
+        "\"E_MPa\", unit = \"MPa\" }");
+  if (experiment.channels.size() == 3)
+    throw test.at("loss_factor").error("the loss factor is the ratio of the two moduli: name two of the three");
+  std::vector<std::vector<double>*> used{&experiment.angular_frequencies};
+  for (Channel& channel : experiment.channels) used.push_back(&channel.values);
+  leave_out_gaps(test, used);
+  sort_by_frequency(experiment);
+  if (!(experiment.angular_frequencies.front() > 0.0)) throw test.at("frequency").error("frequencies must be positive");
+  for (const Channel& channel : experiment.channels)
+    if (channel.quantity == MeasuredQuantity::storage_modulus && !(std::ranges::min(channel.values) > 0.0))
+      throw test.at("storage_modulus").error("a storage modulus must be positive");
+}
+
+void read_history(const ConfigTable& test, const CsvTable& file, ViscoelasticExperiment& experiment) {
+  refuse(test, {"storage_modulus", "loss_modulus", "loss_factor"},
+         "a modulus of DMA needs the column of its frequency, as in frequency = { column = \"f_Hz\" }");
+  experiment.follows_stress = test.choice("controlled", "strain") == "stress";
+  const bool stress = experiment.follows_stress;
+  experiment.ramp = test.quantity("ramp", 0.0);
+  experiment.times = read_times(test, file);
+  experiment.followed =
+      read_followed_column(test, stress ? "stress" : "strain", file, stress ? dimension::stress : dimension::number);
+  experiment.channels = {read_measured_column(test, stress ? "strain" : "stress",
+                                              stress ? MeasuredQuantity::strain : MeasuredQuantity::stress, file)};
+  leave_out_gaps(test, std::array{&experiment.times, &experiment.followed, &experiment.channels[0].values});
+  begin_at_zero(test, experiment.times);
+  const double largest =
+      std::abs(*std::ranges::max_element(experiment.followed, {}, [](double v) { return std::abs(v); }));
+  if (!(largest > 0.0))
+    throw test.table(stress ? "stress" : "strain").error("all values are zero: nothing was done to the material");
+  if (experiment.ramp == 0.0 && std::abs(experiment.followed.front()) > 0.1 * largest)
+    test.at("csv").remark(
+        fmt::format("the {} of its first row counts as a step from rest; if it rose within a time "
+                    "before, ramp = \"1 s\" says within which",
+                    stress ? "stress" : "strain"));
+}
+
+void require_values(const ConfigTable& test, const ViscoelasticExperiment& experiment) {
+  for (const Channel& channel : experiment.channels)
+    if (std::ranges::all_of(channel.values, [](double value) { return value == 0.0; }))
+      throw test.at("csv").error(fmt::format("all values of the {} are zero", name_of(channel.quantity)));
+}
+
+ViscoelasticExperiment read_test(const ConfigTable& test, const std::filesystem::path& directory) {
+  const CsvTable file = read_csv_of(test, directory);
+  ViscoelasticExperiment experiment{.name = test.string("name")};
+  experiment.deformation = test.choice("deformation", "tension") == "shear" ? Deformation::shear : Deformation::tension;
+  if (test.has("frequency"))
+    read_dma(test, file, experiment);
+  else
+    read_history(test, file, experiment);
+  require_values(test, experiment);
+  return experiment;
+}
+
+void require_own_name(const ConfigTable& test, const ViscoelasticExperiments& before) {
+  const std::string file = fit_curve_file(test.string("name"));
+  for (const ViscoelasticExperiment& other : before)
+    if (fit_curve_file(other.name) == file)
+      throw test.at("name").error(
+          fmt::format("the curves of \"{}\" and \"{}\" would have the same file, {}: use names "
+                      "with different letters or digits",
+                      other.name, test.string("name"), file));
+}
+
+ViscoelasticChoice read_estimated(const ConfigTable& fit) {
+  ViscoelasticChoice choice;
+  choice.times = fit.choice("times", "free") == "free";
+  const auto list = fit.find("estimate");
+  if (!list) return choice;
+  choice.young_modulus = choice.moduli = false;
+  for (const ConfigValue& entry : list->list()) {
+    const std::string name = entry.choice();
+    choice.young_modulus |= name == "young_modulus";
+    choice.moduli |= name == "shear_branches";
+    choice.poisson_ratio |= name == "poisson_ratio";
+  }
+  choice.times = choice.times && choice.moduli;
+  return choice;
+}
+
+void read_numbers_of_branches(const ConfigTable& fit, const PronyLaw& law, ViscoelasticSettings& settings) {
+  if (!fit.has("branches")) {
+    if (settings.choice.moduli && law.shear.empty())
+      throw fit.error("[material] has no shear_branches to begin with: branches = [1, 6] tries one to six");
+    return;
+  }
+  const ConfigValue range = fit.at("branches");
+  if (!settings.choice.moduli) throw range.error("shear_branches are not estimated");
+  const auto ends = range.list(2);
+  settings.least_branches = static_cast<int>(ends[0].integer());
+  settings.most_branches = static_cast<int>(ends[1].integer());
+  if (settings.least_branches > settings.most_branches)
+    throw range.error("the first number of branches is larger than the second");
+}
+
+/// [fit.bounds] modulus_1 = ["0.1 MPa", "10 MPa"], time_1 = ["1 ms", "1 s"] ...
+void read_limits(const ConfigTable& fit, const PronyLaw& law, ViscoelasticSettings& settings) {
+  if (!fit.has("bounds")) return;
+  PronyLaw longest = law;
+  while (std::ssize(longest.shear) < settings.most_branches) longest.shear.push_back({1.0, 1.0});
+  const std::vector<FitParameter> parameters = fit_parameters(longest, settings.choice, {});
+  std::vector<std::string> names;
+  for (const FitParameter& p : parameters) names.push_back(p.name);
+  for (const auto& [key, value] : fit.table("bounds").entries()) {
+    const auto p = std::ranges::find(parameters, key, &FitParameter::name);
+    if (p == parameters.end())
+      throw value.error(fmt::format("\"{}\" is not estimated (available: {})", key, fmt::join(names, ", ")));
+    const Dimension& due = p->unit == "Pa" ? dimension::stress : p->unit == "s" ? dimension::time : dimension::number;
+    const auto read = [&](const ConfigValue& end) {
+      return p->unit == "1" ? end.number(range::poisson_ratio) : end.quantity(due, range::positive);
+    };
+    const auto ends = value.list(2);
+    const double lower = read(ends[0]), upper = read(ends[1]);
+    if (!(lower < upper)) throw value.error("the lower bound must be below the upper one");
+    settings.limits.push_back({.name = key, .unit = "", .first = lower, .lower = lower, .upper = upper});
+  }
+}
+
+void require_noise_of_all_or_none(const ConfigTable& fit, const ViscoelasticExperiments& experiments) {
+  std::size_t with = 0, all = 0;
+  for (const ViscoelasticExperiment& experiment : experiments)
+    for (const Channel& channel : experiment.channels)
+      ++all, with += channel.noise > 0.0 || channel.relative_noise > 0.0 ? 1 : 0;
+  if (with != 0 && with != all)
+    throw fit.error(
+        fmt::format("noise is given for {} of {} measured columns; give it for all or for none", with, all));
+}
+
+}  // namespace
+
+ViscoelasticFitCase read_viscoelastic_fit(const ConfigTable& fit, const PronyLaw& law,
+                                          const std::filesystem::path& case_directory) {
+  ViscoelasticFitCase result;
+  result.first = law;
+  result.settings.choice = read_estimated(fit);
+  read_numbers_of_branches(fit, law, result.settings);
+  read_limits(fit, law, result.settings);
+  for (const ConfigTable& test : fit.tables("experiments")) {
+    require_own_name(test, result.experiments);
+    result.experiments.push_back(read_test(test, case_directory));
+    result.data_files.push_back(case_directory / test.string("csv"));
+  }
+  if (result.experiments.empty()) throw fit.at("experiments").error("at least one of [[fit.experiments]] is required");
+  require_noise_of_all_or_none(fit, result.experiments);
+  return result;
+}
+
+}  // namespace pfdm

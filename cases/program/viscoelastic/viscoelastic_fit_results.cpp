@@ -1,0 +1,136 @@
+#include "cases/program/viscoelastic/viscoelastic_fit_results.h"
+
+#include "cases/program/input/laws/prony_reader.h"
+#include "cases/program/point/endochronic_fit_case.h"
+#include "postproc/curves/fit_judgement.h"
+#include "postproc/files/atomic_file.h"
+#include "postproc/files/csv_table.h"
+#include "postproc/files/unit_key.h"
+#include "postproc/point/viscoelastic_fit.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace pfdm {
+namespace {
+
+constexpr double negligible_residual = 0.01;  // over the noise
+constexpr double most_of_noise = 0.05;        // of the data; correlated residuals above are an error of the law
+
+/// "loss_modulus_Pa"
+std::string column_of(MeasuredQuantity quantity) {
+  std::string name(name_of(quantity));
+  std::ranges::replace(name, ' ', '_');
+  return key_with_unit(name, std::string(unit_of(quantity)));
+}
+
+CsvTable fitted_curve(const ViscoelasticExperiment& test, const PronyLaw& law) {
+  CsvTable table;
+  table.comments.push_back(
+      fmt::format("test {}, {}: measured, and by the fitted law", test.name, name_of(test.deformation)));
+  if (test.is_frequency_sweep()) {
+    std::vector<double> frequencies = test.angular_frequencies;
+    for (double& f : frequencies) f /= 2.0 * std::numbers::pi;
+    table.add("frequency_Hz", std::move(frequencies));
+  } else {
+    table.add("time_s", test.times);
+    table.add(test.follows_stress ? "stress_Pa" : "strain", test.followed);
+  }
+  const auto fitted = respond(law, test);
+  for (std::size_t c = 0; c < test.channels.size(); ++c) {
+    const std::string name = column_of(test.channels[c].quantity);
+    table.add("measured_" + name, test.channels[c].values);
+    table.add("fitted_" + name, fitted[c]);
+  }
+  return table;
+}
+
+std::vector<ResidualSeries> series_of_tests(const ViscoelasticFitCase& fit, const std::vector<double>& residuals) {
+  std::vector<ResidualSeries> result;
+  auto at = residuals.begin();
+  for (const ViscoelasticExperiment& test : fit.experiments)
+    for (const ViscoelasticExperiment::Channel& channel : test.channels) {
+      const auto end = at + std::ssize(channel.values);
+      result.push_back({.name = fmt::format("{}, {}", test.name, name_of(channel.quantity)),
+                        .along = test.is_frequency_sweep() ? "frequency" : "time",
+                        .values = {at, end}});
+      at = end;
+    }
+  return result;
+}
+
+/// The fit began elsewhere where it chose the branches, and did not begin at its last refinement.
+void set_first_guess(const ViscoelasticFitCase& fit, FitFindings& findings) {
+  for (FittedParameter& p : findings.parameters) p.first_guess = std::nan("");
+  if (fit.settings.least_branches > 0) return;
+  const std::vector<FitParameter> first = fit_parameters(fit.first, fit.settings.choice, {});
+  for (FittedParameter& p : findings.parameters)
+    for (const FitParameter& guess : first)
+      if (guess.name == p.name) p.first_guess = guess.first;
+}
+
+FitFindings judged_tests(const ViscoelasticFitCase& fit, const ViscoelasticIdentification& found) {
+  FitFindings findings = findings_of(found.fit.parameters, found.fit.result);
+  set_first_guess(fit, findings);
+  const double misfit = relative_misfit(found.fit.law, fit.experiments);
+  const bool model_error = judge(findings, {.series = series_of_tests(fit, found.fit.result.residuals),
+                                            .result = &found.fit.result,
+                                            .correlated_is_noise = misfit < most_of_noise,
+                                            .negligible = negligible_residual,
+                                            .misfit = misfit,
+                                            .reasons = found.doubts});
+  if (model_error && !is_sound(findings.verdict))
+    findings.reasons.push_back(
+        fmt::format("a Prony series of {} shear branches, the same in all tests, is the wrong model for these data, "
+                    "which it misses by up to {:.2g} %",
+                    found.fit.law.shear.size(), 100.0 * misfit));
+  return findings;
+}
+
+ExperimentMisfit misfit_of(const ViscoelasticExperiment& test, const PronyLaw& law) {
+  const std::vector<double> parts = relative_misfits(law, test);
+  double squares = 0.0;
+  for (const double part : parts) squares += part * part;
+  ExperimentMisfit misfit{.name = test.name,
+                          .n_data = n_measured({test}),
+                          .relative = std::sqrt(squares / static_cast<double>(parts.size())),
+                          .curve = fit_curve_file(test.name)};
+  if (test.is_frequency_sweep()) return misfit;
+  double rms = 0.0;
+  for (const double value : test.channels[0].values) rms += value * value;
+  rms = std::sqrt(rms / static_cast<double>(test.channels[0].values.size()));
+  misfit.absolute = {.rms = parts[0] * rms,
+                     .rms_measured = rms,
+                     .quantity = std::string(name_of(test.channels[0].quantity)),
+                     .unit = std::string(unit_of(test.channels[0].quantity))};
+  return misfit;
+}
+
+}  // namespace
+
+FitFindings write_fit_results(const std::filesystem::path& results, const CaseFile& file,
+                              const ViscoelasticFitCase& fit, const ViscoelasticIdentification& found,
+                              const FitRun& run) {
+  FitReport report{.case_name = run.case_name,
+                   .case_hash = run.case_hash,
+                   .version = run.version,
+                   .method = fit.settings.choice.times ? "least squares" : "least squares, fixed times",
+                   .wall_seconds = run.wall_seconds,
+                   .found = judged_tests(fit, found),
+                   .experiments = {},
+                   .own = own_findings(ViscoelasticFindings{found.tried, time_window(fit.experiments)})};
+  for (const ViscoelasticExperiment& test : fit.experiments) {
+    write_csv(results / fit_curve_file(test.name), fitted_curve(test, found.fit.law));
+    report.experiments.push_back(misfit_of(test, found.fit.law));
+  }
+  write_file(
+      results / "case.fitted.toml",
+      with_table(file, "material", "# estimated by pfdm fit\n[material]\n" + to_toml(found.fit.law) + "\n", results));
+  write_fit_json(results / "fit.json", report);
+  return report.found;
+}
+
+}  // namespace pfdm

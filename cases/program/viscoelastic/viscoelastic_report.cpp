@@ -1,0 +1,172 @@
+#include "cases/program/viscoelastic/viscoelastic_report.h"
+
+#include "cases/program/point/endochronic_fit_charts.h"
+#include "cases/program/session/report_parts.h"
+#include "physics/error.h"
+#include "postproc/curves/fit_json.h"
+#include "postproc/curves/summary.h"
+#include "postproc/files/csv_table.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <string_view>
+#include <utility>
+
+namespace pfdm {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double many_decades = 300.0;  // longest over shortest time: the axis of time is logarithmic
+
+Table series_table(const PronyLaw& law) {
+  Table table{.caption = "Prony series",
+              .rows = {{"relaxed Young's modulus E", shown(law.relaxed.young_modulus(), "Pa")},
+                       {"relaxed Poisson's ratio nu", shown(law.relaxed.poisson_ratio())}}};
+  for (const auto& [what, branches] : {std::pair("shear", &law.shear), std::pair("bulk", &law.bulk)})
+    for (const PronyBranch& branch : *branches)
+      table.rows.push_back({fmt::format("{} branch: modulus, time", what),
+                            fmt::format("{}, {}", shown(branch.modulus, "Pa"), shown(branch.time, "s"))});
+  return table;
+}
+
+/// Rows of the columns after time zero, on a logarithmic axis.
+void leave_out_start(std::vector<double>& x, std::vector<double>& y) {
+  std::size_t n = 0;
+  for (std::size_t i = 0; i < x.size(); ++i)
+    if (x[i] > 0.0) x[n] = x[i], y[n++] = y[i];
+  x.resize(n), y.resize(n);
+}
+
+bool spans_decades(const std::vector<double>& times) {
+  const auto first = std::ranges::find_if(times, [](double t) { return t > 0.0; });
+  return first != times.end() && times.back() > many_decades * *first;
+}
+
+/// A quantity over the time, of a column or two: points are measured.
+Chart over_time(const std::string& caption, const CsvTable& table, std::string_view quantity,
+                const std::vector<std::pair<std::string, std::string>>& columns) {
+  const bool is_stress = quantity == "stress", logarithmic = spans_decades(table.column("time_s"));
+  std::vector<std::vector<double>> values;
+  for (const auto& [column, label] : columns) values.push_back(table.column(column));
+  const DisplayUnit unit = is_stress ? common_unit(values, "Pa") : DisplayUnit{.factor = 100.0, .name = "%"};
+  Chart chart{.caption = caption,
+              .x = {.title = "time [s]", .logarithmic = logarithmic},
+              .y = {.title = fmt::format("{} [{}]", quantity, unit.name)},
+              .series = {}};
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    std::vector<double> x = table.column("time_s"), y = in_unit(values[i], unit);
+    if (logarithmic) leave_out_start(x, y);
+    const bool measured = columns[i].first.starts_with("measured");
+    chart.series.push_back({.label = columns[i].second,
+                            .x = x,
+                            .y = y,
+                            .style = measured ? SeriesStyle::points : SeriesStyle::line,
+                            .colour = static_cast<int>(i)});
+  }
+  return chart;
+}
+
+/// Moduli [Pa], or loss factors, over the frequency.
+Chart over_frequency(const std::string& caption, const CsvTable& table, bool moduli,
+                     const std::vector<std::pair<std::string, std::string>>& columns) {
+  std::vector<std::vector<double>> values;
+  for (const auto& [column, label] : columns) values.push_back(table.column(column));
+  const DisplayUnit unit = moduli ? common_unit(values, "Pa") : DisplayUnit{.factor = 1.0, .name = "1"};
+  Chart chart{
+      .caption = caption,
+      .x = {.title = "frequency [Hz]", .logarithmic = true},
+      .y = {.title = moduli ? fmt::format("modulus [{}]", unit.name) : "loss factor [1]", .logarithmic = moduli},
+      .series = {}};
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    std::vector<double> x = table.column("frequency_Hz"), y = in_unit(values[i], unit);
+    if (moduli) leave_out_start(y, x);  // what noise has made negative
+    const bool measured = columns[i].first.starts_with("measured");
+    chart.series.push_back({.label = columns[i].second,
+                            .x = x,
+                            .y = y,
+                            .style = measured ? SeriesStyle::points : SeriesStyle::line,
+                            .colour = static_cast<int>(i)});
+  }
+  return chart;
+}
+
+std::vector<PageRow> rows_of_run(const ViscoelasticCase& c, const fs::path& results) {
+  std::vector<PageBlock> charts;
+  if (c.loading) {
+    const CsvTable history = read_csv(results / "history.csv");
+    const std::string_view of = c.loading->deformation == Deformation::shear ? "shear " : "";
+    charts.emplace_back(over_time(fmt::format("{}strain over time", of), history, "strain", {{"strain", ""}}));
+    charts.emplace_back(over_time(fmt::format("{}stress over time", of), history, "stress", {{"stress_Pa", ""}}));
+  }
+  if (c.sweep) {
+    const CsvTable moduli = read_csv(results / "complex_modulus.csv");
+    charts.emplace_back(over_frequency("Complex moduli", moduli, true,
+                                       {{"young_storage_modulus_Pa", "E'"},
+                                        {"young_loss_modulus_Pa", "E''"},
+                                        {"shear_storage_modulus_Pa", "G'"},
+                                        {"shear_loss_modulus_Pa", "G''"}}));
+    charts.emplace_back(over_frequency("Loss factors", moduli, false,
+                                       {{"young_loss_factor", "tension"}, {"shear_loss_factor", "shear"}}));
+  }
+  return in_pairs(std::move(charts));
+}
+
+/// The columns of a fitted curve with one of these quantities, measured and fitted side by side.
+std::vector<std::pair<std::string, std::string>> pairs_of(const CsvTable& curve,
+                                                          std::initializer_list<std::string_view> quantities) {
+  std::vector<std::pair<std::string, std::string>> columns;
+  for (const std::string_view quantity : quantities)
+    for (const char* what : {"measured", "fitted"})
+      for (const std::string& name : curve.names)
+        if (name.starts_with(fmt::format("{}_{}", what, quantity))) {
+          std::string words(quantity);
+          std::ranges::replace(words, '_', ' ');
+          columns.emplace_back(name, fmt::format("{} {}", what, words));
+        }
+  return columns;
+}
+
+std::vector<PageRow> rows_of_fit(const FitReport& fit, const fs::path& results) {
+  std::vector<PageBlock> charts;
+  for (const ExperimentMisfit& test : fit.experiments) {
+    const CsvTable curve = read_csv(results / test.curve);
+    const std::string caption = fmt::format("Fit to \"{}\", rms misfit {:.2g} %", test.name, 100.0 * test.relative);
+    for (const char* quantity : {"stress", "strain"})
+      if (const auto columns = pairs_of(curve, {quantity}); !columns.empty())
+        charts.emplace_back(over_time(caption, curve, quantity, columns));
+    if (const auto columns = pairs_of(curve, {"storage_modulus", "loss_modulus"}); !columns.empty())
+      charts.emplace_back(over_frequency(caption, curve, true, columns));
+    if (const auto columns = pairs_of(curve, {"loss_factor"}); !columns.empty())
+      charts.emplace_back(over_frequency(caption, curve, false, columns));
+  }
+  return in_pairs(std::move(charts));
+}
+
+}  // namespace
+
+ReportPage viscoelastic_page(const ViscoelasticCase& c, const std::string& name, const std::string& hash,
+                             const fs::path& results) {
+  const auto run = find_of_case(results / summary_file, hash, read_run_summary);
+  const auto fit = find_of_case(results / "fit.json", hash, read_fit_json);
+  if (!run && !fit) throw InputError(fmt::format("{}: there are no results; pfdm run makes them", results.string()));
+  ReportPage page{
+      .title = fmt::format("{}: {}", name, c.title),
+      .subtitle = fmt::format("case {}, {}", hash, run ? fit ? "run and fitted" : "run" : "fitted, not run"),
+      .rows = {}};
+  PageRow tables{.blocks = {series_table(c.law)}};
+  if (fit) tables.blocks.emplace_back(point_estimates(*fit));
+  page.rows.push_back(std::move(tables));
+  if (run)
+    for (PageRow& row : rows_of_run(c, results)) page.rows.push_back(std::move(row));
+  if (fit)
+    for (PageRow& row : rows_of_fit(*fit, results)) page.rows.push_back(std::move(row));
+  for (const char* log : {"run.log", "fit.log"})
+    for (PageRow& row : warnings_row(results / log)) page.rows.push_back(std::move(row));
+  return page;
+}
+
+}  // namespace pfdm

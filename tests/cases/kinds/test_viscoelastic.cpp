@@ -1,0 +1,228 @@
+// Cases of kind "viscoelastic" from end to end.
+
+#include "cases/program/input/case_files/case_file.h"
+#include "cases/program/viscoelastic/viscoelastic_case.h"
+#include "cases/program/viscoelastic/viscoelastic_report.h"
+#include "tests/cases/viscoelastic_fit.h"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <complex>
+
+namespace pfdm::this_file {
+namespace {
+
+constexpr const char* relaxing_case = R"(kind = "viscoelastic"
+title = "rubber"
+[material]
+young_modulus = "3 MPa"
+poisson_ratio = 0.49
+shear_branches = [{ modulus = "1.5 MPa", time = "50 ms" }, { modulus = "0.8 MPa", time = "2 s" }]
+[loading]
+deformation = "shear"
+[[loading.segments]]
+duration = "0.3 s"
+increments = 7
+strain = "2 %"
+[[loading.segments]]
+duration = "20 s"
+increments = 12
+spacing = "logarithmic"
+strain = "2 %"
+[frequency_sweep]
+from = "1 mHz"
+to = "1 kHz"
+points_per_decade = 5
+)";
+
+TEST(ViscoelasticCase, RunsARampThatIsHeldAndComplexModuli) {
+  const TemporaryCase directory(relaxing_case);
+  const Outcome outcome = run({"run", directory.path().string()});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const PronyLaw law{.relaxed = from_young_poisson(3e6, 0.49), .shear = {{1.5e6, 0.05}, {0.8e6, 2.0}}};
+  const CsvTable history = read_csv(directory.results() / "history.csv");
+  ASSERT_EQ(history.n_rows(), 20u);
+  for (std::size_t i = 1; i < history.n_rows(); ++i) {
+    const double expected = ramped(law, 0.02, 0.3, history.column("time_s")[i]);
+    EXPECT_NEAR(history.column("stress_Pa")[i], expected, 1e-12 * expected);
+  }
+  EXPECT_NEAR(history.column("time_s").back(), 20.3, 1e-12);
+  const CsvTable moduli = read_csv(directory.results() / "complex_modulus.csv");
+  ASSERT_EQ(moduli.n_rows(), 31u);
+  const double K = law.relaxed.bulk_modulus();
+  for (std::size_t i = 0; i < moduli.n_rows(); ++i) {
+    const double w = moduli.column("angular_frequency_rad_per_s")[i];
+    EXPECT_NEAR(w, 2.0 * std::numbers::pi * moduli.column("frequency_Hz")[i], 1e-12 * w);
+    std::complex<double> G = law.relaxed.mu;
+    for (const auto& [mu, tau] : law.shear) G += mu * std::complex(0.0, w * tau) / std::complex(1.0, w * tau);
+    const auto E = 9.0 * K * G / (3.0 * K + G);
+    EXPECT_NEAR(moduli.column("shear_storage_modulus_Pa")[i], G.real(), 1e-10 * G.real());
+    EXPECT_NEAR(moduli.column("shear_loss_modulus_Pa")[i], G.imag(), 1e-10 * G.imag());
+    EXPECT_NEAR(moduli.column("young_storage_modulus_Pa")[i], E.real(), 1e-10 * E.real());
+    EXPECT_NEAR(moduli.column("young_loss_factor")[i], E.imag() / E.real(), 1e-10);
+  }
+  const auto summary = nlohmann::json::parse(content_of(directory.results() / "summary.json"));
+  EXPECT_EQ(summary["status"], "complete");
+  EXPECT_NEAR(summary["instantaneous_shear_modulus_Pa"].get<double>(), law.relaxed.mu + 2.3e6, 1e-3);
+  EXPECT_EQ(run({"report", directory.path().string()}).status, 0);
+}
+
+TEST(ViscoelasticCase, CreepsUnderAStressByFormula) {
+  const TemporaryCase directory(replaced(replaced(relaxing_case,
+                                                  "strain = \"2 %\"\n[[loading.segments]]\nduration = \"20 "
+                                                  "s\"\nincrements = 12\nspacing = \"logarithmic\"\nstrain = \"2 %\"\n",
+                                                  "stress = { expr = \"30*t\", unit = \"kPa\" }\n"),
+                                         "\"shear\"", "\"tension\""));
+  ASSERT_EQ(run({"run", directory.path().string()}).status, 0);
+  const CsvTable history = read_csv(directory.results() / "history.csv");
+  EXPECT_NEAR(history.column("stress_Pa").back(), 9e3, 1e-9);
+  EXPECT_GT(history.column("strain").back(), 9e3 / 9.9e6);
+  EXPECT_LT(history.column("strain").back(), 9e3 / 3e6);
+}
+
+/// Within four of the widest half intervals.
+void expect_truth(const nlohmann::json& fit) {
+  const std::vector<FitParameter> truth = fit_parameters(true_series, {}, {});
+  ASSERT_EQ(fit["parameters"].size(), truth.size());
+  for (std::size_t j = 0; j < truth.size(); ++j) {
+    const auto& p = fit["parameters"][j];
+    EXPECT_EQ(p["name"], truth[j].name);
+    EXPECT_NEAR(p["estimate"].get<double>(), truth[j].first, 4.0 * p["standard_error"].get<double>()) << truth[j].name;
+    EXPECT_LT(p["standard_error"].get<double>(), 0.05 * truth[j].first) << truth[j].name;
+  }
+}
+
+TEST(ViscoelasticCase, FitsFilesAsInstrumentsWriteThemAndSaysTheMaterial) {
+  for (const char* unit : {"rad/s", "Hz"}) {
+    const BulkFitCase fit(bulk_fit, unit);
+    const Outcome outcome = run({"fit", fit.directory.path().string(), "--strict"});
+    ASSERT_EQ(outcome.status, 0) << outcome.err << outcome.out;
+    EXPECT_NE(outcome.out.find("law = \"prony\""), std::string::npos) << outcome.out;
+    const auto json = nlohmann::json::parse(content_of(fit.directory.results() / "fit.json"));
+    EXPECT_EQ(json["kind"], "viscoelastic");
+    EXPECT_EQ(json["viscoelastic"]["branches_tried"].size(), 5u);
+    EXPECT_EQ(json["correlation"].size(), 7u);
+    EXPECT_TRUE(json["noise_is_known"].get<bool>());
+    expect_truth(json);
+    EXPECT_EQ(read_csv(fit.directory.results() / "fit_DMA.csv").n_rows(), 41u);
+    const std::filesystem::path fitted = fit.directory.results() / "case.fitted.toml";
+    EXPECT_EQ(run({"run", fitted.string()}).status, 0);
+    EXPECT_EQ(run({"report", fit.directory.path().string()}).status, 0);
+  }
+}
+
+TEST(ViscoelasticCase, ItsMaterialIsOneOfAFractureCase) {
+  const BulkFitCase fit;
+  ASSERT_EQ(run({"fit", fit.directory.path().string()}).status, 0);
+  const std::string text = content_of(fit.directory.results() / "case.fitted.toml");
+  const std::size_t from = text.find("young_modulus"), to = text.find("[frequency_sweep]");
+  std::string bar = bar_case();
+  const std::size_t E = bar.find("young_modulus"), nu = bar.find('\n', bar.find("poisson_ratio")) + 1;
+  bar.replace(E, nu - E, "law = \"prony\"\n" + text.substr(from, to - from));
+  const TemporaryCase fracture(replaced(bar, "[loading]\n", "[loading]\nduration = \"1 s\"\n"));
+  const Outcome outcome = run({"check", fracture.path().string()});
+  EXPECT_EQ(outcome.status, 0) << outcome.err << bar;
+}
+
+TEST(ViscoelasticCase, WithoutStatedNoiseTheScatterOfEachColumnCounts) {
+  std::string text = bulk_fit;
+  for (const char* noise : {", noise = \"0.7862 kPa\"", ", relative_noise = \"1.4 %\"", ", relative_noise = 0.014"})
+    text = replaced(text, noise, "");
+  const BulkFitCase fit(text);
+  ASSERT_EQ(run({"fit", fit.directory.path().string(), "--strict"}).status, 0);
+  const auto json = nlohmann::json::parse(content_of(fit.directory.results() / "fit.json"));
+  EXPECT_FALSE(json["noise_is_known"].get<bool>());
+  EXPECT_NEAR(json["rms_residual"].get<double>(), 1.0, 0.02);
+  expect_truth(json);
+}
+
+TEST(ViscoelasticCase, BranchesOutsideOfTheWindowAreSaid) {
+  // The bounds keep the time of a branch beyond the 600 s of the relaxation.
+  std::string text = replaced(bulk_fit, "[1, 5]", "[3, 3]");
+  text = replaced(text, "[fit.bounds]\nyoung_modulus = [\"10 kPa\", \"1 GPa\"]\n",
+                  "[fit.bounds]\ntime_3 = [\"2000 s\", \"4000 s\"]\n");
+  const BulkFitCase fit(text);
+  const Outcome outcome = run({"fit", fit.directory.path().string()});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const auto json = nlohmann::json::parse(content_of(fit.directory.results() / "fit.json"));
+  EXPECT_EQ(json["verdict"], "questionable");
+  EXPECT_NE(json["reasons"].dump().find("outside of the window of the data"), std::string::npos) << json["reasons"];
+}
+
+const BadInput bad_fits[] = {
+    {"frequency_without_unit",
+     "frequency = { column = \"f\" }",
+     "frequency = { column = \"G1\" }",
+     {"\"MPa\" is no unit of a frequency here: \"Hz\", with any prefix, or \"rad/s\""}},
+    {"two_units",
+     "frequency = { column = \"f\" }",
+     "frequency = { column = \"f\", unit = \"Hz\" }",
+     {"the file itself says that the unit of \"f\" is \"rad/s\""}},
+    {"stress_of_dma", "storage_modulus =", "stress =", {"a test with a frequency is DMA"}},
+    {"modulus_without_frequency",
+     "frequency = { column = \"f\" }\n",
+     "",
+     {"a modulus of DMA needs the column of its frequency"}},
+    {"noise_of_some", ", relative_noise = \"1.4 %\"", "", {"noise is given for 2 of 3 measured columns"}},
+    {"both_noises",
+     "relative_noise = \"1.4 %\"",
+     "relative_noise = \"1.4 %\", noise = \"1 kPa\"",
+     {"either noise or relative_noise, not both"}},
+    {"noise_of_the_strain", "unit = \"%\" }", "unit = \"%\", noise = 0.1 }", {"\"noise\" is not known here"}},
+    {"branches", "[1, 5]", "[5, 1]", {"the first number of branches is larger than the second"}},
+    {"no_column", "\"gamma\"", "\"gama\"", {"there is no column \"gama\""}},
+    {"deformation",
+     "deformation = \"shear\"\ntime =",
+     "deformation = \"torsion\"\ntime =",
+     {"\"torsion\" is not a deformation"}},
+    {"bound_of_none",
+     "young_modulus = [\"10 kPa\", \"1 GPa\"]",
+     "modulus_9 = [\"10 kPa\", \"1 GPa\"]",
+     {"\"modulus_9\" is not estimated (available: young_modulus, modulus_1, time_1"}},
+    {"unit_of_a_bound",
+     "young_modulus = [\"10 kPa\", \"1 GPa\"]",
+     "time_1 = [\"10 kPa\", \"1 GPa\"]",
+     {"expected a time"}},
+    {"same_file", "name = \"DMA\"", "name = \"relaxation\"", {"would have the same file, fit_relaxation.csv"}},
+    {"ramp", "time = \"t\"", "time = \"t\"\nramp = \"-1 s\"", {"must be zero or positive"}},
+};
+
+class BadViscoelasticFit : public testing::TestWithParam<BadInput> {};
+
+TEST_P(BadViscoelasticFit, IsRefusedWithOneMessage) {
+  const BulkFitCase fit(replaced(bulk_fit, GetParam().good, GetParam().bad));
+  expect_refused(fit.directory, GetParam());
+}
+
+INSTANTIATE_TEST_SUITE_P(ViscoelasticCase, BadViscoelasticFit, testing::ValuesIn(bad_fits),
+                         [](const auto& test) { return test.param.name; });
+
+const BadInput bad_cases[] = {
+    {"strain_and_stress",
+     "increments = 7\n",
+     "increments = 7\nstress = \"1 kPa\"\n",
+     {"a segment has either a strain or a stress"}},
+    {"mixed",
+     "spacing = \"logarithmic\"\nstrain = \"2 %\"",
+     "stress = \"1 kPa\"",
+     {"all segments prescribe the strain, or all the stress"}},
+    {"no_duration", "duration = \"20 s\"\n", "", {"\"duration\" is missing"}},
+    {"frequencies", "to = \"1 kHz\"", "to = \"1 mHz\"", {"must be above \"from\""}},
+    {"negative_modulus", "\"1.5 MPa\"", "\"-1.5 MPa\"", {"must be positive"}},
+    {"incompressible", "0.49", "0.5", {"must be above -1 and at most 0.4999"}},
+};
+
+class BadViscoelasticCase : public testing::TestWithParam<BadInput> {};
+
+TEST_P(BadViscoelasticCase, IsRefusedWithOneMessage) {
+  const TemporaryCase directory(replaced(relaxing_case, GetParam().good, GetParam().bad));
+  expect_refused(directory, GetParam());
+}
+
+INSTANTIATE_TEST_SUITE_P(ViscoelasticCase, BadViscoelasticCase, testing::ValuesIn(bad_cases),
+                         [](const auto& test) { return test.param.name; });
+
+}  // namespace
+}  // namespace pfdm::this_file
