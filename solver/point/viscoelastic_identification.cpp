@@ -32,7 +32,8 @@ int most_branches(const ViscoelasticExperiments& experiments, const Viscoelastic
   const int others = (settings.choice.young_modulus ? 1 : 0) + (settings.choice.poisson_ratio ? 1 : 0);
   const int most = std::min(settings.most_branches, (n - others) / (settings.choice.times ? 2 : 1));
   if (most < settings.least_branches)
-    throw InputError(fmt::format("{} measured values cannot determine {} branches", n, settings.least_branches));
+    throw InputError(fmt::format("{} measured values cannot determine {} branch{}", n, settings.least_branches,
+                                 settings.least_branches == 1 ? "" : "es"));
   if (most < settings.most_branches)
     settings.say(fmt::format("no more than {} branches are tried: there are {} measured values", most, n));
   return most;

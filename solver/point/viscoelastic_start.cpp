@@ -1,5 +1,7 @@
 #include "solver/point/viscoelastic_start.h"
 
+#include "solver/linear/dense_algebra.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -46,7 +48,12 @@ class LinearProblem {
     const auto n = std::ssize(right_), k = std::ssize(units_);
     Eigen::MatrixXd A(n, k);
     for (Eigen::Index i = 0; i < n; ++i) A.row(i) = rows_[static_cast<std::size_t>(i)].transpose();
-    return non_negative_least_squares(A, Eigen::VectorXd::Map(right_.data(), n));
+    if (n <= k) return non_negative_least_squares(A, Eigen::VectorXd::Map(right_.data(), n));
+    // The same in as many rows as columns: of many rows the rest of the work is small.
+    Eigen::MatrixXd both(n, k + 1);
+    both << A, Eigen::VectorXd::Map(right_.data(), n);
+    const Eigen::MatrixXd R = upper_triangle(both);
+    return non_negative_least_squares(R.leftCols(k), R.col(k));
   }
 
  private:

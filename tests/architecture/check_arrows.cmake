@@ -44,7 +44,7 @@ set(rooms
      solver/fracture/cells solver/fracture/damage solver/fracture/equilibrium"
     "solver/homogenization: physics mesh solver solver/linear solver/scalar solver/momentum"
     "solver/calibration: physics solver solver/linear"
-    "solver/point: physics solver solver/calibration"
+    "solver/point: physics solver solver/linear solver/calibration"
     "solver/vibration/signals: physics solver solver/linear solver/calibration"
     "solver/vibration/simulation: physics solver solver/linear solver/calibration solver/vibration/signals"
     "solver/vibration/identification: physics solver solver/linear solver/calibration solver/vibration/signals

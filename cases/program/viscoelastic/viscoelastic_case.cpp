@@ -50,6 +50,21 @@ void add_segment(const ConfigTable& segment, const std::filesystem::path& direct
   }
 }
 
+/// Beyond, double precision cannot tell branches from each other.
+void require_size(const ConfigTable& material, const PronyLaw& law) {
+  const auto require = [&](std::string_view what, double value, double least, std::string_view unit) {
+    if (!(value >= least && value <= 1e15))
+      throw material.error(
+          fmt::format("{} of {:.3g} {}: must be between {:g} and 1e15 {}", what, value, unit, least, unit));
+  };
+  require("young_modulus", law.relaxed.young_modulus(), 1e-3, "Pa");
+  for (const auto& [key, branches] : {std::pair("shear_branches", &law.shear), std::pair("bulk_branches", &law.bulk)})
+    for (const PronyBranch& branch : *branches) {
+      require(fmt::format("{}: a modulus", key), branch.modulus, 1e-3, "Pa");
+      require(fmt::format("{}: a time", key), branch.time, 1e-15, "s");
+    }
+}
+
 BulkLoading read_loading(const ConfigTable& table, const std::filesystem::path& directory) {
   BulkLoading loading;
   loading.deformation = table.choice("deformation", "tension") == "shear" ? Deformation::shear : Deformation::tension;
@@ -86,6 +101,7 @@ ViscoelasticCase read_viscoelastic_case(const ConfigTable& root, const std::file
   ViscoelasticCase result;
   result.title = root.line("title");
   result.law = read_prony_series(root.table("material"));
+  require_size(root.table("material"), result.law);
   if (root.has("loading")) result.loading = read_loading(root.table("loading"), case_directory);
   if (root.has("frequency_sweep")) result.sweep = read_range(root.table("frequency_sweep"));
   if (root.has("fit")) result.fit = read_viscoelastic_fit(root.table("fit"), result.law, case_directory);

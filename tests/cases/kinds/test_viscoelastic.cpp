@@ -199,6 +199,15 @@ TEST_P(BadViscoelasticFit, IsRefusedWithOneMessage) {
 INSTANTIATE_TEST_SUITE_P(ViscoelasticCase, BadViscoelasticFit, testing::ValuesIn(bad_fits),
                          [](const auto& test) { return test.param.name; });
 
+TEST(ViscoelasticCase, AFrequencyWithoutUnitIsRefused) {
+  const BulkFitCase fit(bulk_fit, "-");
+  const Outcome outcome = run({"check", fit.directory.path().string()});
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_NE(outcome.err.find("the file does not say the unit of the frequency: unit = \"Hz\" or unit = \"rad/s\""),
+            std::string::npos)
+      << outcome.err;
+}
+
 const BadInput bad_cases[] = {
     {"strain_and_stress",
      "increments = 7\n",
