@@ -109,6 +109,40 @@ TEST(ViscoelasticFit, FixedTimesKeepPositiveModuli) {
   }
 }
 
+TEST(ViscoelasticFit, TimesOfTheMaterialStayWhereTheyAreFixed) {
+  PronyLaw first = true_series;
+  for (PronyBranch& branch : first.shear) branch.modulus = 1e5;
+  first.relaxed = from_young_poisson(1e6, 0.49);
+  ViscoelasticSettings settings;
+  settings.choice.times = false;
+  const auto found = identify(first, {relaxation_test(true_series, 0.0, 1)}, settings);
+  EXPECT_EQ(found.fit.parameters.size(), 4u);
+  expect_series(found.fit.law, true_series, 1e-8);
+}
+
+// A fractional Zener body, G = G_inf + (G_0 - G_inf) (i w tau)^a/(1 + (i w tau)^a), has a continuous spectrum: as many
+// branches as its noise shows meet the curve.
+TEST(ViscoelasticFit, AContinuousSpectrumIsMetWithinItsNoise) {
+  constexpr double noise = 0.02;
+  const auto body = [](double w) {
+    const auto x = std::pow(std::complex(0.0, w), 0.5);
+    return 1e6 + 1e9 * x / (1.0 + x);
+  };
+  ViscoelasticExperiment sweep = frequency_sweep(true_series, noise, 5);
+  std::mt19937 engine(5);
+  std::normal_distribution<double> normal(0.0, noise);
+  for (std::size_t i = 0; i < sweep.angular_frequencies.size(); ++i) {
+    sweep.channels[0].values[i] = body(sweep.angular_frequencies[i]).real() * (1.0 + normal(engine));
+    sweep.channels[1].values[i] = body(sweep.angular_frequencies[i]).imag() * (1.0 + normal(engine));
+  }
+  const auto found = identified({sweep}, 1, 10);
+  EXPECT_LT(found.fit.result.rms, 1.1);
+  EXPECT_GE(found.fit.law.shear.size(), 4u);
+  const RelaxationModulus G = shear_modulus(found.fit.law);
+  for (const double w : sweep.angular_frequencies)
+    EXPECT_LE(std::abs(complex_modulus(G, w) - body(w)), 0.03 * std::abs(body(w))) << w << " rad/s";
+}
+
 // Noise of 1 % of the largest stress and of 2 % of each modulus: estimates without bias, and intervals that hold the
 // truth as often as they say. 100 repetitions by the whole program: tests/statistics/prony_coverage.py.
 TEST(ViscoelasticFit, IntervalsOfTwentyRepetitionsHoldTheTruth) {
