@@ -82,7 +82,62 @@ TEST(ViscoelasticCase, CreepsUnderAStressByFormula) {
   EXPECT_LT(history.column("strain").back(), 9e3 / 3e6);
 }
 
-/// Within four of the widest half intervals.
+const std::string pulled_material =
+    "young_modulus = \"2 MPa\"\npoisson_ratio = 0.3\n"
+    "shear_branches = [{ modulus = \"3 MPa\", time = \"0.1 s\" }, { modulus = \"1 MPa\", time = \"3 s\" }]\n"
+    "bulk_branches = [{ modulus = \"2 MPa\", time = \"0.5 s\" }]\n";
+
+/// Stress of a bar with free sides by the fracture program over that of the point, less 1, at the end of each of n
+/// steps; the largest.
+double difference_of_body(int n) {
+  const std::string increment = std::to_string(1.0 / n);
+  const TemporaryCase body(
+      "kind = \"fracture\"\ntitle = \"bar\"\n[materials.rubber]\nregions = [\"body\"]\nlaw = \"prony\"\n" +
+      pulled_material + R"(damageable = false
+[mesh]
+generator = "box_hexes"
+x = [{ length = "2 mm", cells = 2 }]
+y = [{ length = "1 mm", cells = 1 }]
+z = [{ length = "1 mm", cells = 1 }]
+[fracture]
+split = "none"
+[[boundary]]
+patches = ["xmin", "ymin", "zmin"]
+type = "symmetry"
+[[boundary]]
+patch = "xmax"
+displacement = ["20 um", "free", "free"]
+[output]
+curve = { patch = "xmax", component = "x" }
+[loading]
+duration = "1 s"
+)" +
+      "initial_increment = " + increment + "\nmaximum_increment = " + increment + "\n");
+  const TemporaryCase point("kind = \"viscoelastic\"\ntitle = \"bar\"\n[material]\n" + pulled_material +
+                            "[[loading.segments]]\nduration = \"1 s\"\nincrements = " + std::to_string(n) +
+                            "\nstrain = \"1 %\"\n");
+  for (const TemporaryCase* due : {&body, &point}) EXPECT_EQ(run({"run", due->path().string(), "--quiet"}).status, 0);
+  const CsvTable curve = read_csv(body.results() / "force_displacement.csv");
+  const CsvTable history = read_csv(point.results() / "history.csv");
+  EXPECT_EQ(curve.n_rows(), history.n_rows());
+  double largest = 0.0;
+  for (std::size_t i = 1; i < curve.n_rows(); ++i) {
+    EXPECT_NEAR(curve.column("displacement_m")[i] / 2e-3, history.column("strain")[i], 1e-12) << i;
+    const double stress = curve.column("force_x_N")[i] / 1e-6;
+    largest = std::max(largest, std::abs(stress / history.column("stress_Pa")[i] - 1.0));
+  }
+  return largest;
+}
+
+// The same branches, the same stress. The transverse strain of the body is linear in a step, so that its stress comes
+// with the second order of the steps.
+TEST(ViscoelasticCase, ABodyOfTheFractureProgramHasTheSameStress) {
+  const double error = difference_of_body(100), half = difference_of_body(200);
+  EXPECT_LT(error, 1e-4);
+  EXPECT_LT(half, 0.3 * error);
+}
+
+/// Within four standard errors.
 void expect_truth(const nlohmann::json& fit) {
   const std::vector<FitParameter> truth = fit_parameters(true_series, {}, {});
   ASSERT_EQ(fit["parameters"].size(), truth.size());
