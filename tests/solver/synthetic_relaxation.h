@@ -30,12 +30,12 @@ inline ViscoelasticExperiment relaxation_test(const PronyLaw& law, double noise,
   for (int i = 0; i <= 10; ++i) test.times.push_back(T * i / 10);
   for (int i = 1; i <= 150; ++i) test.times.push_back(T + 0.01 * std::pow((last - T) / 0.01, i / 150.0));
   std::mt19937 engine(seed);
-  std::normal_distribution<double> normal(0.0, noise * ramped(law, gamma, T, T));
+  std::normal_distribution<double> normal(0.0, 1.0);
   ViscoelasticExperiment::Channel stress{.quantity = MeasuredQuantity::stress};
-  stress.noise = normal.stddev();
+  stress.noise = noise * ramped(law, gamma, T, T);
   for (const double t : test.times) {
     test.followed.push_back(gamma * std::min(t / T, 1.0));
-    stress.values.push_back(ramped(law, gamma, T, t) + normal(engine));
+    stress.values.push_back(ramped(law, gamma, T, t) + stress.noise * normal(engine));
   }
   test.channels = {stress};
   return test;
@@ -47,14 +47,14 @@ inline ViscoelasticExperiment frequency_sweep(const PronyLaw& law, double noise,
   ViscoelasticExperiment::Channel storage{.quantity = MeasuredQuantity::storage_modulus, .relative_noise = noise};
   ViscoelasticExperiment::Channel loss{.quantity = MeasuredQuantity::loss_modulus, .relative_noise = noise};
   std::mt19937 engine(seed + 1000000);
-  std::normal_distribution<double> normal(0.0, noise);
+  std::normal_distribution<double> normal(0.0, 1.0);
   for (int i = 0; i <= 40; ++i) {
     const double w = 2.0 * std::numbers::pi * 0.01 * std::pow(10.0, 0.1 * i);
     std::complex<double> M = law.relaxed.mu;
     for (const auto& [mu, tau] : law.shear) M += mu * std::complex(0.0, w * tau) / std::complex(1.0, w * tau);
     test.angular_frequencies.push_back(w);
-    storage.values.push_back(M.real() * (1.0 + normal(engine)));
-    loss.values.push_back(M.imag() * (1.0 + normal(engine)));
+    storage.values.push_back(M.real() * (1.0 + noise * normal(engine)));
+    loss.values.push_back(M.imag() * (1.0 + noise * normal(engine)));
   }
   test.channels = {storage, loss};
   return test;
