@@ -1,10 +1,10 @@
-// read_signals_hdf5() of signal_table.h. The only place that knows HDF5.
+// read_signals_hdf5() of signal_table.h.
 
 #include "physics/error.h"
+#include "postproc/hdf5/hdf5_handle.h"
 #include "postproc/records/signal_table.h"
 
 #include <fmt/format.h>
-#include <hdf5.h>
 
 #include <limits>
 #include <new>
@@ -14,48 +14,15 @@
 namespace pfdm {
 namespace {
 
-/// What HDF5 hands out and takes back.
-class Handle {
- public:
-  Handle(hid_t id, herr_t (*close)(hid_t)) : id_(id), close_(close) {}
-  ~Handle() {
-    if (id_ >= 0) close_(id_);
-  }
-  Handle(const Handle&) = delete;
-  Handle& operator=(const Handle&) = delete;
-  operator hid_t() const { return id_; }
-  bool is_open() const { return id_ >= 0; }
-
- private:
-  hid_t id_;
-  herr_t (*close_)(hid_t);
-};
-
-/// As long as it lives, HDF5 prints nothing on standard error.
-class QuietHdf5 {
- public:
-  QuietHdf5() {
-    H5Eget_auto2(H5E_DEFAULT, &function_, &data_);
-    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
-  }
-  ~QuietHdf5() { H5Eset_auto2(H5E_DEFAULT, function_, data_); }
-  QuietHdf5(const QuietHdf5&) = delete;
-  QuietHdf5& operator=(const QuietHdf5&) = delete;
-
- private:
-  H5E_auto2_t function_ = nullptr;
-  void* data_ = nullptr;
-};
-
 /// A text attribute, of fixed or variable length.
 std::optional<std::string> text_attribute(hid_t object, const char* name) {
   if (H5Aexists(object, name) <= 0) return std::nullopt;
-  const Handle attribute(H5Aopen(object, name, H5P_DEFAULT), H5Aclose);
-  const Handle type(H5Aget_type(attribute), H5Tclose), space(H5Aget_space(attribute), H5Sclose);
+  const Hdf5Handle attribute(H5Aopen(object, name, H5P_DEFAULT), H5Aclose);
+  const Hdf5Handle type(H5Aget_type(attribute), H5Tclose), space(H5Aget_space(attribute), H5Sclose);
   if (H5Tget_class(type) != H5T_STRING || H5Sget_simple_extent_npoints(space) != 1) return std::nullopt;
   if (H5Tis_variable_str(type) > 0) {
     char* text = nullptr;
-    const Handle memory(H5Tcopy(H5T_C_S1), H5Tclose);
+    const Hdf5Handle memory(H5Tcopy(H5T_C_S1), H5Tclose);
     H5Tset_size(memory, H5T_VARIABLE);
     H5Tset_cset(memory, H5Tget_cset(type));
     if (H5Aread(attribute, memory, static_cast<void*>(&text)) < 0 || text == nullptr) return std::nullopt;
@@ -96,8 +63,8 @@ struct Collected {
 
 /// 0, or -1 for an error, as HDF5 has it. Throws std::bad_alloc: few bytes of a file may promise any number of values.
 herr_t collect_dataset(hid_t root, const char* name, Collected& collected) {
-  const Handle dataset(H5Dopen2(root, name, H5P_DEFAULT), H5Dclose);
-  const Handle type(H5Dget_type(dataset), H5Tclose), space(H5Dget_space(dataset), H5Sclose);
+  const Hdf5Handle dataset(H5Dopen2(root, name, H5P_DEFAULT), H5Dclose);
+  const Hdf5Handle type(H5Dget_type(dataset), H5Tclose), space(H5Dget_space(dataset), H5Sclose);
   const auto length = vector_length(space);
   if (!is_number(type) || !length) {
     collected.left_out.insert(name);
@@ -129,7 +96,7 @@ herr_t collect(hid_t root, const char* name, const H5O_info_t* info, void* user)
 
 SignalTable read_signals_hdf5(const std::filesystem::path& path) {
   const QuietHdf5 quiet;
-  const Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
+  const Hdf5Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
   if (!file.is_open()) throw InputError(fmt::format("{}: this is not a readable HDF5 file", path.string()));
   Collected collected{.table = {}, .left_out = {}, .fault = {}};
   if (H5Ovisit2(file, H5_INDEX_NAME, H5_ITER_NATIVE, &collect, &collected, H5O_INFO_BASIC) < 0)

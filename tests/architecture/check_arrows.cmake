@@ -53,7 +53,8 @@ set(rooms
      solver/vibration/simulation solver/vibration/identification"
     "solver/vibration: physics solver solver/linear solver/calibration"
     "postproc/files: physics"
-    "postproc/fields: physics mesh mesh/files solver solver/momentum solver/fracture postproc/files"
+    "postproc/hdf5: physics"
+    "postproc/fields: physics mesh mesh/files solver solver/momentum solver/fracture postproc/files postproc/hdf5"
     "postproc/curves: physics solver/fracture solver/calibration postproc/files"
     "postproc/point: physics solver/point postproc/files postproc/curves"
     "postproc/vibration: physics solver/vibration solver/calibration postproc/files postproc/curves"
@@ -62,7 +63,7 @@ set(rooms
     "postproc/exports: physics mesh solver/fracture postproc/files postproc/cohesive postproc/exports/law"
     "postproc/page: physics postproc/files"
     "postproc/browser: physics mesh postproc/files postproc/fields postproc/page"
-    "postproc/records: physics postproc/files"
+    "postproc/records: physics postproc/files postproc/hdf5"
     "cases/program/input/config: physics postproc/files"
     "cases/program/input/case_files: physics postproc/files cases/program/input/config"
     "cases/program/input/fields: physics mesh mesh/search mesh/files postproc/files cases/program/input/config

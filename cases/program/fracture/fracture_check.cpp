@@ -15,6 +15,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 #include <string>
@@ -64,6 +65,10 @@ Mesh made_mesh(const FractureProgram& program, Log& log) {
   log.say(fmt::format("mesh: {} cells, {} points, {} faces, made in {:.1f} s", mesh.n_cells(), mesh.points.size(),
                       mesh.n_faces(), watch.seconds()));
   if (const auto warning = flat_cell_warning(mesh)) log.warn(*warning);
+  if (program.fracture.output.frames.in_one_file && std::ranges::count(mesh.shape, CellShape::polyhedron) > 0)
+    throw InputError(
+        "output.format = \"vtkhdf\": files of VTKHDF 2.0 have no polyhedra, which this mesh has; \"vtu\" files have "
+        "them");
   return mesh;
 }
 

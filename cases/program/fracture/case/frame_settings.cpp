@@ -68,6 +68,13 @@ struct CompressionName {
 constexpr CompressionName compressions[] = {
     {"zlib", Compression::zlib}, {"lz4", Compression::lz4}, {"none", Compression::none}};
 
+struct FrameFormat {
+  std::string_view name;
+  bool in_one_file;
+};
+
+constexpr FrameFormat formats[] = {{"vtu", false}, {"vtkhdf", true}};
+
 }  // namespace
 
 FrameSettings read_frame_settings(const ConfigTable& output, const LoadingSettings& loading,
@@ -78,6 +85,8 @@ FrameSettings read_frame_settings(const ConfigTable& output, const LoadingSettin
   if (const auto compression = output.find("compression"))
     settings.file.compression =
         choose(*compression, std::span<const CompressionName>(compressions), "compression").compression;
+  if (const auto format = output.find("format"))
+    settings.in_one_file = choose(*format, std::span<const FrameFormat>(formats), "format").in_one_file;
   return settings;
 }
 

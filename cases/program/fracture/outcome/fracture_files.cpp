@@ -56,6 +56,7 @@ bool is_frame(const fs::path& file) {
 void remove_what_was_made_of_them(const fs::path& directory) {
   std::error_code ignored;  // what cannot be removed will not be writable either, and that is said then
   fs::remove(directory / summary_file, ignored);
+  for (const char* file : {frames_in_one_file, interfaces_in_one_file}) fs::remove(directory / file, ignored);
   for (const char* file : cohesive_files) fs::remove(directory / file, ignored);
   remove_exports(directory);
   for (const char* file : comparison_files) fs::remove(directory / file, ignored);

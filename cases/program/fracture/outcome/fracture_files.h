@@ -16,8 +16,10 @@ namespace pfdm {
 inline constexpr const char* checkpoint_file = "checkpoint.bin";
 inline constexpr const char* columns_folder = "columns";
 inline constexpr const char* frames_file = "fields.pvd";
+inline constexpr const char* frames_in_one_file = "fields.vtkhdf";
 inline constexpr const char* frames_folder = "fields";
 inline constexpr const char* interfaces_file = "interfaces.pvd";
+inline constexpr const char* interfaces_in_one_file = "interfaces.vtkhdf";
 inline constexpr const char* interfaces_folder = "interfaces";
 
 /// The frame of a step, relative to the results; in the order of the steps, so are the names.

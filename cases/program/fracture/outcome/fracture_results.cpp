@@ -9,6 +9,7 @@
 #include "postproc/fields/frame.h"
 #include "postproc/fields/point_displacement.h"
 #include "postproc/fields/slice.h"
+#include "postproc/fields/vtkhdf.h"
 #include "postproc/files/atomic_file.h"
 #include "postproc/files/text_file.h"
 
@@ -209,6 +210,12 @@ void FractureResults::write_last_frame(const Output& output) {
   const auto& frames = files_->frames.frames();
   if (fracture_.output.figures_only) return;
   if (frames.empty() || frames.back().file != frame_file(last_step_)) write_frame(last_step_, last_load_, output());
+}
+
+void FractureResults::write_frames_in_one_file() const {
+  if (!fracture_.output.frames.in_one_file || files_->frames.frames().empty()) return;
+  write_vtkhdf(folder() / frames_file, folder() / frames_in_one_file);
+  if (files_->interfaces) write_vtkhdf(folder() / interfaces_file, folder() / interfaces_in_one_file);
 }
 
 std::map<std::string, double> FractureResults::damaged_areas() const {

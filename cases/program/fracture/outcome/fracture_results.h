@@ -50,6 +50,8 @@ class FractureResults {
   void write_what_waits(const FractureState& state);
   /// A frame of the last state, if it has none yet.
   void write_last_frame(const Output& output);
+  /// All frames in one file, if the case asks for it.
+  void write_frames_in_one_file() const;
   /// Fills in what the curve and the last damage tell; returns the whole.
   RunSummary write_summary(RunSummary summary) const;
 

@@ -2,6 +2,7 @@
 
 #include "cases/program/fracture/outcome/end_of_run.h"
 #include "cases/program/fracture/outcome/fracture_cohesive.h"
+#include "cases/program/fracture/outcome/fracture_files.h"
 #include "cases/program/fracture/outcome/mean_curve.h"
 #include "cases/program/fracture/run/long_time_heat.h"
 #include "cases/program/fracture/run/progress.h"
@@ -119,7 +120,8 @@ std::string where_to_look(const std::filesystem::path& results) {
   const bool is_box = std::filesystem::exists(results / means_file);
   for (const auto& [what, file] :
        {std::pair("curve", is_box ? means_file : curve_file), std::pair("ParaView", "fields.pvd"),
-        std::pair("laws", "cohesive.json"), std::pair("all steps", "run.log")})
+        std::pair("ParaView from 5.12 on, one file", frames_in_one_file), std::pair("laws", "cohesive.json"),
+        std::pair("all steps", "run.log")})
     if (std::filesystem::exists(results / file))
       files += fmt::format("{}{} ({})", files.empty() ? "See " : ", ", file, what);
   return files + ".";
@@ -127,6 +129,7 @@ std::string where_to_look(const std::filesystem::path& results) {
 
 /// The summary is the last file of all: where it says "complete", all is there. Returns what is to be said at last.
 std::string finish(RunningCase& c, const std::string& status) {
+  c.results.write_frames_in_one_file();
   RunSummary summary = summary_of(c.program, c.session, c.run, c.times);
   summary.status = status;
   summary.other_figures = c.heat;
