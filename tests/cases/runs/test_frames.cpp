@@ -47,6 +47,19 @@ TEST(Frames, HaveTheTimeThatIsAskedFor) {
               ElementsAre(testing::DoubleEq(6e-6), testing::DoubleEq(15e-6)));
 }
 
+TEST(Frames, StandInOneFileToo) {
+  const TemporaryCase directory(with_output("format = \"vtkhdf\""));
+  const std::vector<std::string> command{"run", directory.path().string(), "--threads", "1"};
+  const Outcome outcome = run(command);
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("fields.vtkhdf"));
+  EXPECT_TRUE(fs::exists(directory.results() / "fields.vtkhdf"));
+  EXPECT_EQ(read_pvd(directory.results() / "fields.pvd").size(), 2u);
+  directory.write("case.toml", bar_case());
+  ASSERT_EQ(run(command).status, 0);
+  EXPECT_FALSE(fs::exists(directory.results() / "fields.vtkhdf"));
+}
+
 class BadFrames : public testing::TestWithParam<BadInput> {};
 
 TEST_P(BadFrames, AreRefusedWithOneMessage) {
