@@ -187,8 +187,12 @@ void fit_case(const ViscoelasticProgram& program, Session& session) {
   log.open_file(session.results / "fit.log", false);  // not before: it belongs to the estimates that are there
   const FitFindings findings = write_fit_results(session.results, program.file, fit, found,
                                                  {program.name, program.hash, session.version, seconds});
-  for (const FittedParameter& p : findings.parameters)
-    log.say(fmt::format("  {:<14} {:.6g} {}, {}", p.name, p.estimate, p.unit, interval_text(p.lower, p.upper)));
+  for (const FittedParameter& p : findings.parameters) {
+    const bool is_long = p.unit == "s" && p.estimate >= 1.0;  // no kiloseconds
+    const ScaledUnit unit = is_long ? ScaledUnit{1.0, p.unit} : scaled_unit(std::abs(p.estimate), p.unit);
+    log.say(fmt::format("  {:<14} {:.6g} {}, {}", p.name, unit.factor * p.estimate, unit.name,
+                        interval_text(unit.factor * p.lower, unit.factor * p.upper)));
+  }
   log.say(fmt::format("largest misfit {:.3g} % of what was measured; {:.1f} s; {}",
                       100.0 * relative_misfit(found.fit.law, fit.experiments), seconds, found.fit.result.message));
   log.say(fmt::format("written to {}; run it with: pfdm run {}", session.results.string(),

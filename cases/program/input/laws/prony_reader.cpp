@@ -1,5 +1,7 @@
 #include "cases/program/input/laws/prony_reader.h"
 
+#include "physics/quantity_text.h"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -14,11 +16,17 @@ std::vector<PronyBranch> read_branches(const ConfigTable& material, std::string_
   return branches;
 }
 
+/// "12.5 ms", "40 s": without kiloseconds.
+std::string time_text(double time, int digits) {
+  return time < 1.0 ? quantity_text(time, "s", digits) : fmt::format("{:.{}g} s", time, digits);
+}
+
 std::string branches_toml(std::string_view key, const std::vector<PronyBranch>& branches, int digits) {
   if (branches.empty()) return "";
   std::vector<std::string> rows;
   for (const auto& [modulus, time] : branches)
-    rows.push_back(fmt::format("  {{ modulus = \"{1:.{0}g} Pa\", time = \"{2:.{0}g} s\" }},\n", digits, modulus, time));
+    rows.push_back(fmt::format("  {{ modulus = \"{}\", time = \"{}\" }},\n", quantity_text(modulus, "Pa", digits),
+                               time_text(time, digits)));
   return fmt::format("{} = [\n{}]\n", key, fmt::join(rows, ""));
 }
 
@@ -31,8 +39,8 @@ PronyLaw read_prony_series(const ConfigTable& material) {
 }
 
 std::string to_toml(const PronyLaw& law, int digits) {
-  return fmt::format("young_modulus = \"{1:.{0}g} Pa\"\npoisson_ratio = {2:.{0}g}\n", digits,
-                     law.relaxed.young_modulus(), law.relaxed.poisson_ratio()) +
+  return fmt::format("young_modulus = \"{}\"\npoisson_ratio = {:.{}g}\n",
+                     quantity_text(law.relaxed.young_modulus(), "Pa", digits), law.relaxed.poisson_ratio(), digits) +
          branches_toml("shear_branches", law.shear, digits) + branches_toml("bulk_branches", law.bulk, digits);
 }
 
