@@ -52,12 +52,19 @@ struct Gap {
   double error() const { return std::sqrt(before.variance(middle) + after.variance(middle)); }
 };
 
-/// Through rows [first, end). A gap of no width is as wide as rows lie apart: there the machine has waited.
+double mean_spacing(const SampledCurve& rows, std::size_t first, std::size_t end) {
+  return (rows.x[end - 1] - rows.x[first]) / static_cast<double>(end - 1 - first);
+}
+
+/// Through rows [first, end). A gap of no width is as wide as rows lie apart, about it or in the whole record: there
+/// the machine has waited.
 Gap gap_behind(const SampledCurve& rows, std::size_t row, std::size_t first, std::size_t end) {
-  const double width = rows.x[row + 1] - rows.x[row];
+  double width = rows.x[row + 1] - rows.x[row];
+  if (!(width > 0.0)) width = mean_spacing(rows, first, end);
+  if (!(width > 0.0)) width = mean_spacing(rows, 0, rows.x.size());
   return {.row = row,
           .middle = 0.5 * (rows.x[row] + rows.x[row + 1]),
-          .width = width > 0.0 ? width : (rows.x[end - 1] - rows.x[first]) / static_cast<double>(end - 1 - first),
+          .width = width,
           .before = line_through(rows, first, row + 1),
           .after = line_through(rows, row + 1, end)};
 }

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -41,6 +42,20 @@ TEST(RecordedJumps, AreNoneInNoise) {
   EXPECT_LE(found, 2);
   EXPECT_TRUE(recorded_jumps({}, 0.1).empty());
   EXPECT_TRUE(recorded_jumps({.name = "", .x = {0, 1, 2}, .y = {0, 1, 0}, .deviation = {1, 1, 1}}, 0.1).empty());
+}
+
+// Rows 40 to 60 at one displacement, and the fall in their middle: all rows about it are at the same place.
+TEST(RecordedJumps, AreFoundWhereTheMachineWaits) {
+  SampledCurve record = record_of({50.5}, 0.01, 1);
+  for (std::size_t i = 41; i < record.x.size(); ++i) {
+    const double waited = std::min(static_cast<double>(i) - 40.0, 20.0);
+    record.x[i] -= waited;
+    record.y[i] -= waited;
+  }
+  const auto jumps = recorded_jumps(record, 0.1);
+  ASSERT_EQ(jumps.size(), 1u);
+  EXPECT_NEAR(jumps[0].displacement, 40.0, 1e-9);
+  EXPECT_NEAR(jumps[0].deviation, 60.0 / 80.0 / std::sqrt(12.0), 1e-3);
 }
 
 // Of a jump that is five standard deviations of the noise, and anywhere between two rows.
