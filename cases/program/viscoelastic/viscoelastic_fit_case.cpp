@@ -176,6 +176,15 @@ void require_values(const ConfigTable& test, const ViscoelasticExperiment& exper
       throw test.at("csv").error(fmt::format("all values of the {} are zero", name_of(channel.quantity)));
 }
 
+/// Of a history: a material does not pull while it is pressed all along.
+void require_one_sign(const ConfigTable& test, const ViscoelasticExperiment& experiment) {
+  double product = 0.0;
+  for (std::size_t i = 0; i < experiment.followed.size(); ++i)
+    product += experiment.followed[i] * experiment.channels[0].values[i];
+  if (product < 0.0)
+    throw test.at("csv").error("stress and strain have opposite signs: change that of one of both columns in the file");
+}
+
 ViscoelasticExperiment read_test(const ConfigTable& test, const std::filesystem::path& directory) {
   const CsvTable file = read_csv_of(test, directory);
   ViscoelasticExperiment experiment{.name = test.string("name")};
@@ -185,6 +194,7 @@ ViscoelasticExperiment read_test(const ConfigTable& test, const std::filesystem:
   else
     read_history(test, file, experiment);
   require_values(test, experiment);
+  if (!experiment.is_frequency_sweep()) require_one_sign(test, experiment);
   return experiment;
 }
 

@@ -254,6 +254,14 @@ TEST_P(BadViscoelasticFit, IsRefusedWithOneMessage) {
 INSTANTIATE_TEST_SUITE_P(ViscoelasticCase, BadViscoelasticFit, testing::ValuesIn(bad_fits),
                          [](const auto& test) { return test.param.name; });
 
+TEST(ViscoelasticCase, AStressOfTheOtherSignIsRefused) {
+  const BulkFitCase fit;
+  fit.directory.write("relaxation.csv", "t;gamma;tau\n0;0;0\n10;1;-2\n20;1;-1.5\n30;1;-1.2\n40;1;-1.1\n");
+  const Outcome outcome = run({"check", fit.directory.path().string()});
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_NE(outcome.err.find("stress and strain have opposite signs"), std::string::npos) << outcome.err;
+}
+
 TEST(ViscoelasticCase, AFrequencyWithoutUnitIsRefused) {
   const BulkFitCase fit(bulk_fit, "-");
   const Outcome outcome = run({"check", fit.directory.path().string()});
