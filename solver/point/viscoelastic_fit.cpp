@@ -14,6 +14,8 @@ namespace {
 constexpr double unknown_part = 0.01;   // deviation of noise that is not known, before there is a fit
 constexpr double least_scatter = 1e-6;  // of values that the law meets but for rounding
 constexpr double reach_of_modulus = 1e7, reach_of_time = 1e3;
+constexpr double least_modulus = 1e-3, largest_modulus = 1e15;  // [Pa], as cases take them
+constexpr double least_nu = -0.99, largest_nu = 0.4999;
 
 double rms_of(std::span<const double> values) {
   double sum = 0.0;
@@ -39,24 +41,8 @@ FitParameter on_log_scale(std::string name, std::string_view unit, double first,
           .log_scale = true};
 }
 
-/// The step before the first row, if there is a ramp.
-struct Path {
-  std::vector<double> times, followed;
-  std::ptrdiff_t added = 0;
-};
-
-Path whole_path(const ViscoelasticExperiment& experiment) {
-  Path path{experiment.times, experiment.followed};
-  if (experiment.ramp > 0.0) {
-    path.times.insert(path.times.begin(), experiment.times.front() - experiment.ramp);
-    path.followed.insert(path.followed.begin(), 0.0);
-    path.added = 1;
-  }
-  return path;
-}
-
 std::vector<double> response_over_time(const RelaxationModulus& modulus, const ViscoelasticExperiment& experiment) {
-  const Path path = whole_path(experiment);
+  const LoadPath path = whole_path(experiment);
   std::vector<double> answer = experiment.follows_stress
                                    ? strain_response(creep_compliance(modulus), path.times, path.followed)
                                    : stress_response(modulus, path.times, path.followed);
@@ -79,7 +65,8 @@ std::vector<double> scales(const ViscoelasticExperiment& experiment, const Visco
                            const std::vector<double>& model) {
   const bool relative = is_known(channel) ? channel.relative_noise > 0.0 : experiment.is_frequency_sweep();
   std::vector<double> result(model.size(), is_known(channel) ? 1.0 : rms_of(channel.values));
-  const double least = 1e-9 * rms_of(channel.values);
+  // A history begins at zero, where a share of the value would be no noise at all.
+  const double least = (experiment.is_frequency_sweep() ? 1e-9 : 1e-2) * rms_of(channel.values);
   if (relative)
     for (std::size_t i = 0; i < model.size(); ++i) result[i] = std::max(std::abs(model[i]), least);
   return result;
@@ -119,25 +106,6 @@ std::string_view unit_of(MeasuredQuantity quantity) {
   return quantity == MeasuredQuantity::strain || quantity == MeasuredQuantity::loss_factor ? "1" : "Pa";
 }
 
-TimeWindow time_window(const ViscoelasticExperiments& experiments) {
-  TimeWindow window{.shortest = std::numeric_limits<double>::infinity(), .longest = 0.0};
-  for (const ViscoelasticExperiment& experiment : experiments) {
-    const Path path = whole_path(experiment);
-    for (std::size_t i = 1; i < path.times.size(); ++i)
-      window.shortest = std::min(window.shortest, path.times[i] - path.times[i - 1]);
-    if (!path.times.empty()) window.longest = std::max(window.longest, path.times.back() - path.times.front());
-    for (const double w : experiment.angular_frequencies) {
-      window.shortest = std::min(window.shortest, 1.0 / w);
-      window.longest = std::max(window.longest, 1.0 / w);
-    }
-  }
-  return window;
-}
-
-std::string text_of(const TimeWindow& window) {
-  return fmt::format("{} to {}", quantity_text(window.shortest, "s", 3), quantity_text(window.longest, "s", 3));
-}
-
 std::vector<FitParameter> fit_parameters(const PronyLaw& law, const ViscoelasticChoice& choice,
                                          const TimeWindow& window) {
   std::vector<FitParameter> parameters;
@@ -149,11 +117,15 @@ std::vector<FitParameter> fit_parameters(const PronyLaw& law, const Viscoelastic
     const bool has_window = is_time && window.longest > 0.0;
     const double lower = has_window ? window.shortest / reach_of_time : value / reach_of_modulus;
     const double upper = has_window ? window.longest * reach_of_time : value * reach_of_modulus;
-    parameters.push_back(on_log_scale(std::move(name), unit, value, lower, upper));
+    parameters.push_back(on_log_scale(std::move(name), unit, value, std::max(lower, is_time ? 1e-15 : least_modulus),
+                                      is_time ? upper : std::min(upper, largest_modulus)));
   });
   if (choice.poisson_ratio)
-    parameters.push_back(
-        {.name = "poisson_ratio", .unit = "1", .first = law.relaxed.poisson_ratio(), .lower = -0.99, .upper = 0.4999});
+    parameters.push_back({.name = "poisson_ratio",
+                          .unit = "1",
+                          .first = std::clamp(law.relaxed.poisson_ratio(), least_nu, largest_nu),
+                          .lower = least_nu,
+                          .upper = largest_nu});
   return parameters;
 }
 
@@ -268,7 +240,7 @@ ViscoelasticFit fit_law(const PronyLaw& law, const ViscoelasticChoice& choice,
                          .noise_is_known = noise_is_known(experiments)},
                         settings);
     fitted.law = *with_values(base, choice, fitted.result.values());
-    if (std::ranges::is_sorted(fitted.law.shear, {}, &PronyBranch::time)) break;
+    if (turn == 1 || std::ranges::is_sorted(fitted.law.shear, {}, &PronyBranch::time)) break;
     std::ranges::sort(fitted.law.shear, {}, &PronyBranch::time);
   }
   return fitted;

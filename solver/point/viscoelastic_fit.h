@@ -41,14 +41,22 @@ struct ViscoelasticExperiment {
 };
 using ViscoelasticExperiments = std::vector<ViscoelasticExperiment>;
 
-/// Relaxation times that tests can show [s]: from the shortest step of time (the inverse of the highest angular
-/// frequency) to the longest duration (the inverse of the lowest).
+/// Relaxation times that tests can show [s]: from the shortest step of time in which the load changes, or after it (the
+/// inverse of the highest angular frequency), to the longest time under load (the inverse of the lowest).
 struct TimeWindow {
   double shortest = 0.0, longest = 0.0;
 };
 TimeWindow time_window(const ViscoelasticExperiments& experiments);
 /// "1.6 us to 10 ks"
 std::string text_of(const TimeWindow& window);
+
+/// What was followed over time, from rest.
+struct LoadPath {
+  std::vector<double> times, followed;
+  std::ptrdiff_t added = 0;  ///< rows before those of the experiment
+};
+/// With the step before the first row, if there is a ramp.
+LoadPath whole_path(const ViscoelasticExperiment& experiment);
 
 /// What is estimated. Bulk branches are not.
 struct ViscoelasticChoice {

@@ -17,6 +17,8 @@ constexpr double negligible_residual = 1e-3;  // over the noise: rounding, which
 constexpr double worth_mention = 2.0;         // of the information: fewer branches are taken
 constexpr double very_strong = 10.0;          // likewise: branches that are not determined are in the data
 constexpr int reweightings = 2;
+constexpr int values_for_noise = 3;  // for each parameter, where the noise is not known
+constexpr double softer_nu = 0.1;    // at once than relaxed: no material is known to be so
 
 struct Problem {
   const PronyLaw& law;
@@ -24,18 +26,24 @@ struct Problem {
   const ViscoelasticSettings& settings;
   TimeWindow window;
   int most_branches = 0;  ///< of the settings, or as many as there are values for
+  bool holds_relaxed() const { return !settings.choice.young_modulus; }
 };
 
 /// Throws InputError if there are too few values for the least number of branches.
 int most_branches(const ViscoelasticExperiments& experiments, const ViscoelasticSettings& settings) {
   const auto n = static_cast<int>(std::min<std::size_t>(n_measured(experiments), 1000));
   const int others = (settings.choice.young_modulus ? 1 : 0) + (settings.choice.poisson_ratio ? 1 : 0);
-  const int most = std::min(settings.most_branches, (n - others) / (settings.choice.times ? 2 : 1));
+  const auto with_values_for = [&](int parameters) { return (parameters - others) / (settings.choice.times ? 2 : 1); };
+  int most = std::min(settings.most_branches, with_values_for(n));
+  // The noise that is not known is that about the law with most branches, which must not follow it.
+  if (!noise_is_known(experiments))
+    most = std::min(most, std::max(with_values_for(n / values_for_noise), settings.least_branches));
   if (most < settings.least_branches)
     throw InputError(fmt::format("{} measured values cannot determine {} branch{}", n, settings.least_branches,
                                  settings.least_branches == 1 ? "" : "es"));
   if (most < settings.most_branches)
-    settings.say(fmt::format("no more than {} branches are tried: there are {} measured values", most, n));
+    settings.say(fmt::format("no more than {} {} tried: there are {} measured values", most,
+                             most == 1 ? "branch is" : "branches are", n));
   return most;
 }
 
@@ -89,11 +97,11 @@ ViscoelasticFit without_zeros(const Problem& p, ViscoelasticFit found, std::span
 ViscoelasticFit fit_branches(const Problem& p, int n, const std::optional<PronyLaw>& before,
                              std::span<const double> deviations) {
   if (!p.settings.choice.times) {
-    const PronyLaw start = law_of_times(p.law, p.experiments, deviations, spread_times(p.window, n));
+    const PronyLaw start = law_of_times(p.law, p.holds_relaxed(), p.experiments, deviations, spread_times(p.window, n));
     return without_zeros(p, fit_from_law(p, start, deviations, roughly(p.settings.fit)), deviations);
   }
-  std::vector<PronyLaw> starts{law_of_branches(p.law, p.experiments, deviations, n)};
-  PronyLaw even = law_of_times(p.law, p.experiments, deviations, spread_times(p.window, n + 2));
+  std::vector<PronyLaw> starts{law_of_branches(p.law, p.holds_relaxed(), p.experiments, deviations, n)};
+  PronyLaw even = law_of_times(p.law, p.holds_relaxed(), p.experiments, deviations, spread_times(p.window, n + 2));
   if (std::ssize(even.shear) == n) starts.push_back(even);
   if (before) starts.push_back(with_one_more(*before, p.window));
   return lowest_from(p, starts, deviations);
@@ -129,6 +137,7 @@ Selection select(const Problem& p, std::span<const double> deviations) {
       fits.push_back(fit_branches(p, n, before, deviations));
     } catch (const ComputationError& error) {
       p.settings.say(fmt::format("{} branches: {}", n, error.what()));
+      before.reset();
       continue;
     }
     before = fits.back().law;
@@ -147,6 +156,32 @@ Selection select(const Problem& p, std::span<const double> deviations) {
   const std::size_t chosen = choice_of(result.tried);
   result.fit = std::move(fits[chosen]);
   return result;
+}
+
+/// The law with the most branches that can be fitted.
+PronyLaw law_with_most(const Problem& p, std::span<const double> deviations) {
+  for (int n = p.most_branches;; --n) {
+    try {
+      return fit_branches(p, n, std::nullopt, deviations).law;
+    } catch (const ComputationError&) {
+      if (n <= std::max(p.settings.least_branches, 1)) throw;
+    }
+  }
+}
+
+/// Of tests in tension: their branches are right only if the bulk modulus relaxes as the law says. Empty if nothing
+/// speaks against it.
+std::string doubt_of_bulk(const PronyLaw& law, const ViscoelasticExperiments& experiments) {
+  const auto is_tension = [](const ViscoelasticExperiment& e) { return e.deformation == Deformation::tension; };
+  double mu = law.relaxed.mu, K = law.relaxed.bulk_modulus();
+  for (const PronyBranch& branch : law.shear) mu += branch.modulus;
+  for (const PronyBranch& branch : law.bulk) K += branch.modulus;
+  const double at_once = (3.0 * K - 2.0 * mu) / (2.0 * (3.0 * K + mu)), relaxed = law.relaxed.poisson_ratio();
+  if (std::ranges::none_of(experiments, is_tension) || at_once > relaxed - softer_nu) return "";
+  return fmt::format(
+      "Poisson's ratio would be {:.2g} at once and {:.2g} relaxed, as the bulk modulus is taken as that of the relaxed "
+      "material: if it relaxes too (bulk_branches in [material]), tests in tension have other shear branches",
+      at_once, relaxed);
 }
 
 }  // namespace
@@ -184,15 +219,15 @@ ViscoelasticIdentification identify(const PronyLaw& law, const ViscoelasticExper
   result.deviations = first_deviations(experiments);
   if (settings.least_branches > 0) {
     // Noise by the law with the most branches, the same for all numbers: their residuals can be compared.
-    const ViscoelasticFit most = fit_branches(p, p.most_branches, std::nullopt, result.deviations);
-    result.deviations = deviations(most.law, experiments);
+    result.deviations = deviations(law_with_most(p, result.deviations), experiments);
     Selection selected = select(p, result.deviations);
     result.fit = std::move(selected.fit);
     result.tried = std::move(selected.tried);
   } else {
     std::vector<PronyLaw> starts{law};
     if (settings.choice.times && settings.choice.moduli)
-      starts.push_back(law_of_branches(law, experiments, result.deviations, static_cast<int>(law.shear.size())));
+      starts.push_back(
+          law_of_branches(law, p.holds_relaxed(), experiments, result.deviations, static_cast<int>(law.shear.size())));
     result.fit = lowest_from(p, starts, result.deviations);
   }
   for (int turn = 0; turn < reweightings; ++turn) {
@@ -201,6 +236,8 @@ ViscoelasticIdentification identify(const PronyLaw& law, const ViscoelasticExper
   }
   if (const std::string objection = objection_to(result.fit, p.window); !objection.empty())
     result.doubts.push_back(objection);
+  if (const std::string doubt = doubt_of_bulk(result.fit.law, experiments); !doubt.empty())
+    result.doubts.push_back(doubt);
   return result;
 }
 

@@ -26,8 +26,9 @@ double rms(const std::vector<double>& values) {
 /// Rows of the linear problem in the moduli.
 class LinearProblem {
  public:
-  LinearProblem(const PronyLaw& law, std::span<const double> deviations, std::span<const double> times)
-      : law_(law), deviations_(deviations), units_{{.relaxed = 1.0}} {
+  LinearProblem(const PronyLaw& law, bool holds_relaxed, std::span<const double> deviations,
+                std::span<const double> times)
+      : law_(law), holds_relaxed_(holds_relaxed), deviations_(deviations), units_{{.relaxed = 1.0}} {
     for (const double time : times) units_.push_back({.relaxed = 0.0, .branches = {{1.0, time}}});
   }
 
@@ -43,26 +44,36 @@ class LinearProblem {
     }
   }
 
-  /// Of the relaxed modulus and of each branch.
+  /// Of the relaxed modulus, which may be the law's, and of each branch.
   Eigen::VectorXd solve() const {
     const auto n = std::ssize(right_), k = std::ssize(units_);
     Eigen::MatrixXd A(n, k);
     for (Eigen::Index i = 0; i < n; ++i) A.row(i) = rows_[static_cast<std::size_t>(i)].transpose();
-    if (n <= k) return non_negative_least_squares(A, Eigen::VectorXd::Map(right_.data(), n));
+    Eigen::VectorXd right = Eigen::VectorXd::Map(right_.data(), n);
+    if (holds_relaxed_) {
+      right -= law_.relaxed.mu * A.col(0);
+      A.col(0).setZero();
+    }
+    Eigen::VectorXd moduli = non_negative(A, right);
+    if (holds_relaxed_) moduli[0] = law_.relaxed.mu;
+    return moduli;
+  }
+
+ private:
+  static Eigen::VectorXd non_negative(const Eigen::MatrixXd& A, const Eigen::VectorXd& right) {
+    const Eigen::Index k = A.cols();
+    if (A.rows() <= k) return non_negative_least_squares(A, right);
     // The same in as many rows as columns: of many rows the rest of the work is small.
-    Eigen::MatrixXd both(n, k + 1);
-    both << A, Eigen::VectorXd::Map(right_.data(), n);
+    Eigen::MatrixXd both(A.rows(), k + 1);
+    both << A, right;
     const Eigen::MatrixXd R = upper_triangle(both);
     return non_negative_least_squares(R.leftCols(k), R.col(k));
   }
 
- private:
   /// Stresses by strains, whichever was followed.
   void add_history(const ViscoelasticExperiment& experiment, const ViscoelasticExperiment::Channel& channel) {
     ViscoelasticExperiment swapped = experiment;
-    swapped.follows_stress = false;
     if (experiment.follows_stress) swapped.followed = channel.values;
-    swapped.channels = {ViscoelasticExperiment::Channel{}};
     const std::vector<double>& stresses = experiment.follows_stress ? experiment.followed : channel.values;
     const double stiffness = experiment.follows_stress ? rms(stresses) / rms(channel.values) : 1.0;
     std::vector<std::vector<double>> columns;
@@ -111,6 +122,7 @@ class LinearProblem {
   }
 
   const PronyLaw& law_;
+  bool holds_relaxed_;
   std::span<const double> deviations_;
   std::vector<RelaxationModulus> units_;
   std::vector<Eigen::VectorXd> rows_;
@@ -147,9 +159,9 @@ std::vector<double> spread_times(const TimeWindow& window, int n) {
   return times;
 }
 
-PronyLaw law_of_times(const PronyLaw& law, const ViscoelasticExperiments& experiments,
+PronyLaw law_of_times(const PronyLaw& law, bool holds_relaxed, const ViscoelasticExperiments& experiments,
                       std::span<const double> deviations, std::span<const double> times) {
-  LinearProblem problem(law, deviations, times);
+  LinearProblem problem(law, holds_relaxed, deviations, times);
   for (const ViscoelasticExperiment& experiment : experiments) problem.add(experiment);
   const Eigen::VectorXd moduli = problem.solve();
   const double sum = moduli.sum();
@@ -161,19 +173,19 @@ PronyLaw law_of_times(const PronyLaw& law, const ViscoelasticExperiments& experi
   }
   PronyLaw result = law;
   const double mu = std::max(moduli[0], 1e-3 * sum), nu = law.relaxed.poisson_ratio();
-  result.relaxed = from_young_poisson(2.0 * (1.0 + nu) * mu, nu);
+  if (!holds_relaxed) result.relaxed = from_young_poisson(2.0 * (1.0 + nu) * mu, nu);
   result.shear.clear();
   for (Eigen::Index i = 1; i < moduli.size(); ++i)
     if (moduli[i] > 1e-9 * sum) result.shear.push_back({moduli[i], times[static_cast<std::size_t>(i) - 1]});
   return result;
 }
 
-PronyLaw law_of_branches(const PronyLaw& law, const ViscoelasticExperiments& experiments,
+PronyLaw law_of_branches(const PronyLaw& law, bool holds_relaxed, const ViscoelasticExperiments& experiments,
                          std::span<const double> deviations, int n) {
   const TimeWindow window = time_window(experiments);
   const double decades = std::log10(window.longest / window.shortest);
   const int points = std::clamp(static_cast<int>(std::ceil(per_decade * decades)) + 1, 2, 80);
-  PronyLaw result = law_of_times(law, experiments, deviations, spread_times(window, points));
+  PronyLaw result = law_of_times(law, holds_relaxed, experiments, deviations, spread_times(window, points));
   join_near(result.shear, std::pow(10.0, 1.5 / per_decade), static_cast<std::size_t>(n));
   while (std::ssize(result.shear) < n) result = with_one_more(result, window);
   return result;

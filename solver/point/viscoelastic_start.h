@@ -13,13 +13,14 @@ namespace pfdm {
 std::vector<double> spread_times(const TimeWindow& window, int n);
 
 /// The law with branches of those of the times whose moduli come out positive, and the relaxed modulus that goes with
-/// them. In tension as if Poisson's ratio were constant. `deviations`: of each measured value.
-PronyLaw law_of_times(const PronyLaw& law, const ViscoelasticExperiments& experiments,
+/// them, or that of `law` where it holds. In tension as if Poisson's ratio were constant. `deviations`: of each
+/// measured value.
+PronyLaw law_of_times(const PronyLaw& law, bool holds_relaxed, const ViscoelasticExperiments& experiments,
                       std::span<const double> deviations, std::span<const double> times);
 
 /// The law with as many branches: those of a fine grid of times, neighbours joined, near ones joined further or small
 /// ones added in the widest gaps.
-PronyLaw law_of_branches(const PronyLaw& law, const ViscoelasticExperiments& experiments,
+PronyLaw law_of_branches(const PronyLaw& law, bool holds_relaxed, const ViscoelasticExperiments& experiments,
                          std::span<const double> deviations, int n);
 
 /// The law with one more branch, a small one in the widest gap of its times within the window.

@@ -11,6 +11,30 @@
 
 namespace pfdm {
 
+/// A relaxation in shear, and complex moduli.
+inline constexpr const char* relaxing_case = R"(kind = "viscoelastic"
+title = "rubber"
+[material]
+young_modulus = "3 MPa"
+poisson_ratio = 0.49
+shear_branches = [{ modulus = "1.5 MPa", time = "50 ms" }, { modulus = "0.8 MPa", time = "2 s" }]
+[loading]
+deformation = "shear"
+[[loading.segments]]
+duration = "0.3 s"
+increments = 7
+strain = "2 %"
+[[loading.segments]]
+duration = "20 s"
+increments = 12
+spacing = "logarithmic"
+strain = "2 %"
+[frequency_sweep]
+from = "1 mHz"
+to = "1 kHz"
+points_per_decade = 5
+)";
+
 inline const std::string bulk_case = R"(kind = "viscoelastic"
 title = "rubber"
 [material]

@@ -31,7 +31,8 @@ std::vector<double> times_of_segment(const ConfigTable& segment, const std::file
   std::vector<double> times{0.0};
   for (std::int64_t i = 1; i <= n; ++i) {
     const double part = static_cast<double>(i) / static_cast<double>(n);
-    times.push_back(duration * (logarithmic ? std::pow(logarithmic_span, part - 1.0) : part));
+    const double decades = n > 1 ? static_cast<double>(i - n) / static_cast<double>(n - 1) : 0.0;
+    times.push_back(duration * (logarithmic ? std::pow(logarithmic_span, decades) : part));
   }
   return times;
 }
@@ -42,11 +43,16 @@ void add_segment(const ConfigTable& segment, const std::filesystem::path& direct
   read_control_value(value_of(segment), loading.is_stress, times, directory, loading.data_files, condition);
   const bool is_first = loading.times.empty();
   const double start = is_first ? 0.0 : loading.times.back(), before = is_first ? 0.0 : loading.values.back();
+  const bool follows = condition.pace == Pace::follow;
+  if (!is_first && follows && std::abs(condition.values[0] - before) > 1e-6 * std::abs(condition.values[0]))
+    throw value_of(segment).error(fmt::format(
+        "the segment begins at {:.6g} and the one before ends at {:.6g}: a jump needs a short segment of its "
+        "own",
+        condition.values[0], before));
   for (std::size_t i = is_first ? 0 : 1; i < times.size(); ++i) {
     loading.times.push_back(start + times[i]);
-    loading.values.push_back(condition.pace == Pace::follow
-                                 ? condition.values[i]
-                                 : before + (condition.values.back() - before) * times[i] / times.back());
+    loading.values.push_back(follows ? condition.values[i]
+                                     : before + (condition.values.back() - before) * times[i] / times.back());
   }
 }
 

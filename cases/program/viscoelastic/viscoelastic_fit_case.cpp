@@ -2,10 +2,10 @@
 
 #include "cases/program/input/fields/csv_columns.h"
 #include "cases/program/point/endochronic_fit_case.h"
+#include "cases/program/viscoelastic/viscoelastic_bounds.h"
 #include "cases/program/viscoelastic/viscoelastic_keys.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -237,29 +237,6 @@ void read_numbers_of_branches(const ConfigTable& fit, const PronyLaw& law, Visco
   settings.most_branches = static_cast<int>(ends[1].integer());
   if (settings.least_branches > settings.most_branches)
     throw range.error("the first number of branches is larger than the second");
-}
-
-/// [fit.bounds] modulus_1 = ["0.1 MPa", "10 MPa"], time_1 = ["1 ms", "1 s"] ...
-void read_limits(const ConfigTable& fit, const PronyLaw& law, ViscoelasticSettings& settings) {
-  if (!fit.has("bounds")) return;
-  PronyLaw longest = law;
-  while (std::ssize(longest.shear) < settings.most_branches) longest.shear.push_back({1.0, 1.0});
-  const std::vector<FitParameter> parameters = fit_parameters(longest, settings.choice, {});
-  std::vector<std::string> names;
-  for (const FitParameter& p : parameters) names.push_back(p.name);
-  for (const auto& [key, value] : fit.table("bounds").entries()) {
-    const auto p = std::ranges::find(parameters, key, &FitParameter::name);
-    if (p == parameters.end())
-      throw value.error(fmt::format("\"{}\" is not estimated (available: {})", key, fmt::join(names, ", ")));
-    const Dimension& due = p->unit == "Pa" ? dimension::stress : p->unit == "s" ? dimension::time : dimension::number;
-    const auto read = [&](const ConfigValue& end) {
-      return p->unit == "1" ? end.number(range::poisson_ratio) : end.quantity(due, range::positive);
-    };
-    const auto ends = value.list(2);
-    const double lower = read(ends[0]), upper = read(ends[1]);
-    if (!(lower < upper)) throw value.error("the lower bound must be below the upper one");
-    settings.limits.push_back({.name = key, .unit = "", .first = lower, .lower = lower, .upper = upper});
-  }
 }
 
 void require_noise_of_all_or_none(const ConfigTable& fit, const ViscoelasticExperiments& experiments) {

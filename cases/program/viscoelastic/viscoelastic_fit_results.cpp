@@ -84,9 +84,9 @@ FitFindings judged_tests(const ViscoelasticFitCase& fit, const ViscoelasticIdent
                                             .reasons = found.doubts});
   if (model_error && !is_sound(findings.verdict))
     findings.reasons.push_back(
-        fmt::format("a Prony series of {} shear branches, the same in all tests, is the wrong model for these data, "
+        fmt::format("a Prony series of {} shear branch{}, the same in all tests, is the wrong model for these data, "
                     "which it misses by up to {:.2g} %",
-                    found.fit.law.shear.size(), 100.0 * misfit));
+                    found.fit.law.shear.size(), found.fit.law.shear.size() == 1 ? "" : "es", 100.0 * misfit));
   return findings;
 }
 

@@ -14,29 +14,6 @@
 namespace pfdm::this_file {
 namespace {
 
-constexpr const char* relaxing_case = R"(kind = "viscoelastic"
-title = "rubber"
-[material]
-young_modulus = "3 MPa"
-poisson_ratio = 0.49
-shear_branches = [{ modulus = "1.5 MPa", time = "50 ms" }, { modulus = "0.8 MPa", time = "2 s" }]
-[loading]
-deformation = "shear"
-[[loading.segments]]
-duration = "0.3 s"
-increments = 7
-strain = "2 %"
-[[loading.segments]]
-duration = "20 s"
-increments = 12
-spacing = "logarithmic"
-strain = "2 %"
-[frequency_sweep]
-from = "1 mHz"
-to = "1 kHz"
-points_per_decade = 5
-)";
-
 TEST(ViscoelasticCase, RunsARampThatIsHeldAndComplexModuli) {
   const TemporaryCase directory(relaxing_case);
   const Outcome outcome = run({"run", directory.path().string()});
@@ -205,96 +182,6 @@ TEST(ViscoelasticCase, BranchesOutsideOfTheWindowAreSaid) {
   EXPECT_EQ(json["verdict"], "questionable");
   EXPECT_NE(json["reasons"].dump().find("outside of the window of the data"), std::string::npos) << json["reasons"];
 }
-
-const BadInput bad_fits[] = {
-    {"frequency_without_unit",
-     "frequency = { column = \"f\" }",
-     "frequency = { column = \"G1\" }",
-     {"\"MPa\" is no unit of a frequency here: \"Hz\", with any prefix, or \"rad/s\""}},
-    {"two_units",
-     "frequency = { column = \"f\" }",
-     "frequency = { column = \"f\", unit = \"Hz\" }",
-     {"the file itself says that the unit of \"f\" is \"rad/s\""}},
-    {"stress_of_dma", "storage_modulus =", "stress =", {"a test with a frequency is DMA"}},
-    {"modulus_without_frequency",
-     "frequency = { column = \"f\" }\n",
-     "",
-     {"a modulus of DMA needs the column of its frequency"}},
-    {"noise_of_some", ", relative_noise = \"1.4 %\"", "", {"noise is given for 2 of 3 measured columns"}},
-    {"both_noises",
-     "relative_noise = \"1.4 %\"",
-     "relative_noise = \"1.4 %\", noise = \"1 kPa\"",
-     {"either noise or relative_noise, not both"}},
-    {"noise_of_the_strain", "unit = \"%\" }", "unit = \"%\", noise = 0.1 }", {"\"noise\" is not known here"}},
-    {"branches", "[1, 5]", "[5, 1]", {"the first number of branches is larger than the second"}},
-    {"no_column", "\"gamma\"", "\"gama\"", {"there is no column \"gama\""}},
-    {"deformation",
-     "deformation = \"shear\"\ntime =",
-     "deformation = \"torsion\"\ntime =",
-     {"\"torsion\" is not a deformation"}},
-    {"bound_of_none",
-     "young_modulus = [\"10 kPa\", \"1 GPa\"]",
-     "modulus_9 = [\"10 kPa\", \"1 GPa\"]",
-     {"\"modulus_9\" is not estimated (available: young_modulus, modulus_1, time_1"}},
-    {"unit_of_a_bound",
-     "young_modulus = [\"10 kPa\", \"1 GPa\"]",
-     "time_1 = [\"10 kPa\", \"1 GPa\"]",
-     {"expected a time"}},
-    {"same_file", "name = \"DMA\"", "name = \"relaxation\"", {"would have the same file, fit_relaxation.csv"}},
-    {"ramp", "time = \"t\"", "time = \"t\"\nramp = \"-1 s\"", {"must be zero or positive"}},
-};
-
-class BadViscoelasticFit : public testing::TestWithParam<BadInput> {};
-
-TEST_P(BadViscoelasticFit, IsRefusedWithOneMessage) {
-  const BulkFitCase fit(replaced(bulk_fit, GetParam().good, GetParam().bad));
-  expect_refused(fit.directory, GetParam());
-}
-
-INSTANTIATE_TEST_SUITE_P(ViscoelasticCase, BadViscoelasticFit, testing::ValuesIn(bad_fits),
-                         [](const auto& test) { return test.param.name; });
-
-TEST(ViscoelasticCase, AStressOfTheOtherSignIsRefused) {
-  const BulkFitCase fit;
-  fit.directory.write("relaxation.csv", "t;gamma;tau\n0;0;0\n10;1;-2\n20;1;-1.5\n30;1;-1.2\n40;1;-1.1\n");
-  const Outcome outcome = run({"check", fit.directory.path().string()});
-  EXPECT_EQ(outcome.status, 2);
-  EXPECT_NE(outcome.err.find("stress and strain have opposite signs"), std::string::npos) << outcome.err;
-}
-
-TEST(ViscoelasticCase, AFrequencyWithoutUnitIsRefused) {
-  const BulkFitCase fit(bulk_fit, "-");
-  const Outcome outcome = run({"check", fit.directory.path().string()});
-  EXPECT_EQ(outcome.status, 2);
-  EXPECT_NE(outcome.err.find("the file does not say the unit of the frequency: unit = \"Hz\" or unit = \"rad/s\""),
-            std::string::npos)
-      << outcome.err;
-}
-
-const BadInput bad_cases[] = {
-    {"strain_and_stress",
-     "increments = 7\n",
-     "increments = 7\nstress = \"1 kPa\"\n",
-     {"a segment has either a strain or a stress"}},
-    {"mixed",
-     "spacing = \"logarithmic\"\nstrain = \"2 %\"",
-     "stress = \"1 kPa\"",
-     {"all segments prescribe the strain, or all the stress"}},
-    {"no_duration", "duration = \"20 s\"\n", "", {"\"duration\" is missing"}},
-    {"frequencies", "to = \"1 kHz\"", "to = \"1 mHz\"", {"must be above \"from\""}},
-    {"negative_modulus", "\"1.5 MPa\"", "\"-1.5 MPa\"", {"must be positive"}},
-    {"incompressible", "0.49", "0.5", {"must be above -1 and at most 0.4999"}},
-};
-
-class BadViscoelasticCase : public testing::TestWithParam<BadInput> {};
-
-TEST_P(BadViscoelasticCase, IsRefusedWithOneMessage) {
-  const TemporaryCase directory(replaced(relaxing_case, GetParam().good, GetParam().bad));
-  expect_refused(directory, GetParam());
-}
-
-INSTANTIATE_TEST_SUITE_P(ViscoelasticCase, BadViscoelasticCase, testing::ValuesIn(bad_cases),
-                         [](const auto& test) { return test.param.name; });
 
 }  // namespace
 }  // namespace pfdm::this_file

@@ -170,5 +170,21 @@ TEST(ViscoelasticFit, IntervalsOfTwentyRepetitionsHoldTheTruth) {
   for (const auto& [name, total] : sum) EXPECT_LE(std::abs(total / n), 0.7) << name;  // 3.1 standard errors of the mean
 }
 
+// Rest before the load, and rows close to each other while it stays, show no relaxation.
+TEST(ViscoelasticFit, TheWindowIsThatOfTheLoad) {
+  ViscoelasticExperiment test = relaxation_test(true_series, 0.0, 1, 20.0);
+  const TimeWindow window = time_window({test});
+  EXPECT_DOUBLE_EQ(window.shortest, 0.005);
+  EXPECT_DOUBLE_EQ(window.longest, 20.0);
+  for (double& t : test.times) t += 600.0;
+  test.times.insert(test.times.begin(), 0.0);
+  test.times.push_back(test.times.back() + 1e-9);
+  test.followed.insert(test.followed.begin(), 0.0);
+  test.followed.push_back(test.followed.back());
+  const TimeWindow with_rest = time_window({test});
+  EXPECT_NEAR(with_rest.shortest, 0.005, 1e-12);
+  EXPECT_NEAR(with_rest.longest, 20.0, 1e-6);
+}
+
 }  // namespace
 }  // namespace pfdm::this_file
