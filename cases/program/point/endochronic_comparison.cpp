@@ -1,5 +1,6 @@
 #include "cases/program/point/endochronic_comparison.h"
 
+#include "cases/program/studies/fit/material_tests.h"
 #include "postproc/files/atomic_file.h"
 #include "postproc/files/folder_lock.h"
 #include "postproc/files/json.h"

@@ -4,14 +4,13 @@
 #include "cases/program/point/control_values.h"
 #include "cases/program/point/endochronic_case_keys.h"
 #include "cases/program/point/endochronic_loading.h"
+#include "cases/program/studies/fit/material_tests.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <numeric>
-#include <span>
 
 namespace pfdm {
 namespace {
@@ -32,14 +31,7 @@ MeasuredColumn read_measured(const std::string& key, const ConfigValue& value, c
   const Dimension& due = is_stress ? dimension::stress : dimension::number;
   const ConfigTable table = value.table().with_keys(component_column_keys(), with_noise ? "measured" : "followed");
   MeasuredColumn column{.component = component, .values = read_column(table, file, "column", "unit", due)};
-  if (with_noise && table.has("noise")) {
-    const ConfigValue noise = table.at("noise");
-    if (!is_stress && !noise.is_string() && table.has("unit"))
-      throw noise.error(fmt::format("the column has a unit, so the noise needs one too, as \"{} {}\"",
-                                    noise.number(range::positive), table.string("unit")));
-    column.noise =
-        is_stress || noise.is_string() ? noise.quantity(due, range::positive) : noise.number(range::positive);
-  }
+  if (with_noise) column.noise = read_noise(table, due);
   return column;
 }
 
@@ -130,17 +122,6 @@ MaterialExperiment read_experiment(const ConfigTable& table, const EndochronicLa
   return experiment;
 }
 
-/// `experiments`: those before this one.
-void require_own_file(const ConfigTable& table, const std::vector<MaterialExperiment>& experiments) {
-  const std::string name = table.string("name");
-  for (const MaterialExperiment& other : experiments)
-    if (fit_curve_file(other.name) == fit_curve_file(name))
-      throw table.at("name").error(
-          fmt::format("the curves of \"{}\" and \"{}\" would have the same file, {}: use names "
-                      "with different letters or digits",
-                      other.name, name, fit_curve_file(name)));
-}
-
 FitChoice read_choice(const ConfigTable& fit, const EndochronicLaw& law) {
   FitChoice choice;
   choice.rate = law.hardening.depends_on_rate();
@@ -171,18 +152,11 @@ double read_parameter_value(const ConfigValue& value) { return value.is_string()
 /// [fit.bounds] C_1 = ["1 GPa", "100 GPa"], f_inf = [1, 10] ...
 void read_bounds(const ConfigTable& fit, const EndochronicLaw& law, EndochronicIdentificationSettings& settings) {
   if (!fit.has("bounds")) return;
-  std::vector<std::string> names;
   EndochronicLaw longest = law;
   while (static_cast<int>(longest.kernel.size()) < settings.most_terms) longest.kernel.push_back({1.0, 1.0});
-  for (const FitParameter& p : fit_parameters(longest, settings.choice)) names.push_back(p.name);
-  for (const auto& [key, value] : fit.table("bounds").entries()) {
-    if (std::ranges::count(names, key) == 0)
-      throw value.error(fmt::format("\"{}\" is not estimated (available: {})", key, fmt::join(names, ", ")));
-    const auto ends = value.list(2);
-    const double lower = read_parameter_value(ends[0]), upper = read_parameter_value(ends[1]);
-    if (!(lower < upper)) throw value.error("the lower bound must be below the upper one");
-    settings.limits.push_back({.name = key, .unit = "", .first = lower, .lower = lower, .upper = upper});
-  }
+  settings.limits =
+      read_fit_bounds(fit, fit_parameters(longest, settings.choice),
+                      [](const FitParameter&, const ConfigValue& end) { return read_parameter_value(end); });
 }
 
 void require_noise_of_all_or_none(const ConfigTable& fit, const std::vector<MaterialExperiment>& experiments) {
@@ -192,18 +166,10 @@ void require_noise_of_all_or_none(const ConfigTable& fit, const std::vector<Mate
       ++all;
       with += channel.noise > 0.0 ? 1 : 0;
     }
-  if (with != 0 && with != all)
-    throw fit.error(fmt::format("noise is given for {} of {} measured curves; give it for all or for none", with, all));
+  require_noise_of_all_or_none(fit, with, all, "curves");
 }
 
 }  // namespace
-
-std::string fit_curve_file(const std::string& experiment) {
-  std::string name = experiment;
-  for (char& c : name)
-    if (std::isalnum(static_cast<unsigned char>(c)) == 0) c = '_';
-  return "fit_" + name + ".csv";
-}
 
 EndochronicFit read_endochronic_fit(const ConfigTable& fit, const EndochronicLaw& law,
                                     const std::filesystem::path& case_directory) {
@@ -220,8 +186,8 @@ EndochronicFit read_endochronic_fit(const ConfigTable& fit, const EndochronicLaw
   read_bounds(fit, law, settings);
   for (const ConfigTable& table : fit.tables("experiments")) {
     MaterialExperiment experiment = read_experiment(table, law, case_directory);
-    require_own_file(table, result.experiments);
-    require_own_file(table, result.predicted);
+    for (const auto* before : {&result.experiments, &result.predicted})
+      for (const MaterialExperiment& other : *before) require_own_file(table, other.name);
     (table.boolean("predicted", false) ? result.predicted : result.experiments).push_back(std::move(experiment));
     result.data_files.push_back(case_directory / table.string("csv"));
   }

@@ -19,9 +19,6 @@ struct EndochronicFit {
   std::vector<std::filesystem::path> data_files;
 };
 
-/// The file of the results that has an experiment's curve; names that differ may have the same.
-std::string fit_curve_file(const std::string& experiment);
-
 /// `law`: the first guess. Throws InputError with the place of what is wrong.
 EndochronicFit read_endochronic_fit(const ConfigTable& fit, const EndochronicLaw& law,
                                     const std::filesystem::path& case_directory);

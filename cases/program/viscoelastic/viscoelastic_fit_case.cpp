@@ -1,8 +1,7 @@
 #include "cases/program/viscoelastic/viscoelastic_fit_case.h"
 
 #include "cases/program/input/fields/csv_columns.h"
-#include "cases/program/point/endochronic_fit_case.h"
-#include "cases/program/viscoelastic/viscoelastic_bounds.h"
+#include "cases/program/studies/fit/material_tests.h"
 #include "cases/program/viscoelastic/viscoelastic_keys.h"
 
 #include <fmt/format.h>
@@ -37,19 +36,13 @@ std::vector<double> read_followed_column(const ConfigTable& test, const char* ke
   return read_column(test.table(key).with_keys(test_column_keys(), "followed"), file, "column", "unit", due);
 }
 
-void read_noise(const ConfigTable& column, const Dimension& due, Channel& channel) {
+void read_noises(const ConfigTable& column, const Dimension& due, Channel& channel) {
   if (column.has("noise") && column.has("relative_noise"))
     throw column.error("either noise or relative_noise, not both");
   if (const auto part = column.find("relative_noise"))
     channel.relative_noise =
         part->is_string() ? part->quantity(dimension::number, part_range) : part->number(part_range);
-  if (!column.has("noise")) return;
-  const ConfigValue noise = column.at("noise");
-  if (!noise.is_string() && column.has("unit"))
-    throw noise.error(fmt::format("the column has a unit, so the noise needs one too, as \"{} {}\"",
-                                  noise.number(range::positive), column.string("unit")));
-  const bool is_stress = due.name == dimension::stress.name;
-  channel.noise = is_stress || noise.is_string() ? noise.quantity(due, range::positive) : noise.number(range::positive);
+  channel.noise = read_noise(column, due);
 }
 
 Channel read_measured_column(const ConfigTable& test, const char* key, MeasuredQuantity quantity,
@@ -57,7 +50,7 @@ Channel read_measured_column(const ConfigTable& test, const char* key, MeasuredQ
   const ConfigTable column = test.table(key).with_keys(test_column_keys(), "measured");
   const Dimension& due = dimension_of_channel(quantity);
   Channel channel{.quantity = quantity, .values = read_column(column, file, "column", "unit", due)};
-  read_noise(column, due, channel);
+  read_noises(column, due, channel);
   return channel;
 }
 
@@ -198,16 +191,6 @@ ViscoelasticExperiment read_test(const ConfigTable& test, const std::filesystem:
   return experiment;
 }
 
-void require_own_name(const ConfigTable& test, const ViscoelasticExperiments& before) {
-  const std::string file = fit_curve_file(test.string("name"));
-  for (const ViscoelasticExperiment& other : before)
-    if (fit_curve_file(other.name) == file)
-      throw test.at("name").error(
-          fmt::format("the curves of \"{}\" and \"{}\" would have the same file, {}: use names "
-                      "with different letters or digits",
-                      other.name, test.string("name"), file));
-}
-
 ViscoelasticChoice read_estimated(const ConfigTable& fit) {
   ViscoelasticChoice choice;
   choice.times = fit.choice("times", "free") == "free";
@@ -239,14 +222,35 @@ void read_numbers_of_branches(const ConfigTable& fit, const PronyLaw& law, Visco
     throw range.error("the first number of branches is larger than the second");
 }
 
+/// Branches are numbered by rising times.
+void require_rising_times(const ConfigTable& fit, const ViscoelasticSettings& settings) {
+  const auto number = [](const FitParameter& p) { return std::stoi(p.name.substr(p.name.find('_') + 1)); };
+  for (const FitParameter& a : settings.limits)
+    for (const FitParameter& b : settings.limits)
+      if (a.name.starts_with("time_") && b.name.starts_with("time_") && number(a) < number(b) && b.upper <= a.lower)
+        throw fit.table("bounds").at(b.name).error(fmt::format(
+            "branches are numbered by rising times: {} must reach beyond the lower bound of {}", b.name, a.name));
+}
+
+/// [fit.bounds] modulus_1 = ["0.1 MPa", "10 MPa"], time_1 = ["1 ms", "1 s"] ...
+void read_limits(const ConfigTable& fit, const PronyLaw& law, ViscoelasticSettings& settings) {
+  if (!fit.has("bounds")) return;
+  PronyLaw longest = law;
+  while (std::ssize(longest.shear) < settings.most_branches) longest.shear.push_back({1.0, 1.0});
+  settings.limits = read_fit_bounds(
+      fit, fit_parameters(longest, settings.choice, {}), [](const FitParameter& p, const ConfigValue& end) {
+        const Dimension& due = p.unit == "Pa" ? dimension::stress : dimension::time;
+        return p.unit == "1" ? end.number(range::poisson_ratio) : end.quantity(due, range::positive);
+      });
+  require_rising_times(fit, settings);
+}
+
 void require_noise_of_all_or_none(const ConfigTable& fit, const ViscoelasticExperiments& experiments) {
   std::size_t with = 0, all = 0;
   for (const ViscoelasticExperiment& experiment : experiments)
     for (const Channel& channel : experiment.channels)
       ++all, with += channel.noise > 0.0 || channel.relative_noise > 0.0 ? 1 : 0;
-  if (with != 0 && with != all)
-    throw fit.error(
-        fmt::format("noise is given for {} of {} measured columns; give it for all or for none", with, all));
+  require_noise_of_all_or_none(fit, with, all, "columns");
 }
 
 }  // namespace
@@ -259,7 +263,7 @@ ViscoelasticFitCase read_viscoelastic_fit(const ConfigTable& fit, const PronyLaw
   read_numbers_of_branches(fit, law, result.settings);
   read_limits(fit, law, result.settings);
   for (const ConfigTable& test : fit.tables("experiments")) {
-    require_own_name(test, result.experiments);
+    for (const ViscoelasticExperiment& other : result.experiments) require_own_file(test, other.name);
     result.experiments.push_back(read_test(test, case_directory));
     result.data_files.push_back(case_directory / test.string("csv"));
   }

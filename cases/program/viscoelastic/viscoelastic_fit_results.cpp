@@ -1,7 +1,7 @@
 #include "cases/program/viscoelastic/viscoelastic_fit_results.h"
 
 #include "cases/program/input/laws/prony_reader.h"
-#include "cases/program/point/endochronic_fit_case.h"
+#include "cases/program/studies/fit/material_tests.h"
 #include "postproc/curves/fit_judgement.h"
 #include "postproc/files/atomic_file.h"
 #include "postproc/files/csv_table.h"
