@@ -18,17 +18,12 @@ double sum_of(const std::vector<PronyBranch>& branches) {
                          [](double sum, const PronyBranch& branch) { return sum + branch.modulus; });
 }
 
-IsotropicElasticity instantaneous(const PronyLaw& law) {
-  const double mu = law.relaxed.mu + sum_of(law.shear), K = law.relaxed.bulk_modulus() + sum_of(law.bulk);
-  return {.lambda = K - 2.0 * mu / 3.0, .mu = mu};
-}
-
 // History: the viscous strains of the shear branches (deviators in Mandel components), then of the bulk branches, then
 // the mean viscous strain, by which the stress is C_0 (eps - eps_v), then the heat [J/m^3].
 class Prony final : public SmallStrainMaterial {
  public:
   explicit Prony(const PronyLaw& law)
-      : SmallStrainMaterial("prony", instantaneous(law)),
+      : SmallStrainMaterial("prony", instantaneous_elasticity(law)),
         law_(law),
         bulk_(6 * law.shear.size()),
         mean_(bulk_ + law.bulk.size()),
@@ -102,6 +97,11 @@ class Prony final : public SmallStrainMaterial {
 };
 
 }  // namespace
+
+IsotropicElasticity instantaneous_elasticity(const PronyLaw& law) {
+  const double mu = law.relaxed.mu + sum_of(law.shear), K = law.relaxed.bulk_modulus() + sum_of(law.bulk);
+  return {.lambda = K - 2.0 * mu / 3.0, .mu = mu};
+}
 
 IsotropicElasticity elasticity_over(const PronyLaw& law, double duration) {
   double mu = law.relaxed.mu, K = law.relaxed.bulk_modulus();

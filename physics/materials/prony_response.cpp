@@ -125,6 +125,12 @@ void memory_of(double time, std::span<const double> times, std::span<const doubl
 
 }  // namespace
 
+double RelaxationModulus::instantaneous() const {
+  double sum = relaxed;
+  for (const PronyBranch& branch : branches) sum += branch.modulus;
+  return sum;
+}
+
 std::string_view name_of(Deformation deformation) { return deformation == Deformation::tension ? "tension" : "shear"; }
 
 RelaxationModulus shear_modulus(const PronyLaw& law) { return sorted(law.relaxed.mu, law.shear); }
@@ -145,8 +151,7 @@ RelaxationModulus modulus_in(const PronyLaw& law, Deformation deformation) {
 
 // M(-x) = M_inf + sum M_i - sum M_i r_i/(r_i - x).
 CreepCompliance creep_compliance(const RelaxationModulus& modulus) {
-  double at_once = modulus.relaxed;
-  for (const PronyBranch& branch : modulus.branches) at_once += branch.modulus;
+  const double at_once = modulus.instantaneous();
   const PoleSum sum = pole_sum(at_once, -1.0, modulus.branches, &PronyBranch::modulus);
   CreepCompliance result{.instantaneous = 1.0 / at_once};
   for (const Zero& zero : zeros(sum)) result.retardations.push_back({strength_at(sum, zero), 1.0 / zero.value()});

@@ -25,6 +25,8 @@ namespace pfdm {
 struct RelaxationModulus {
   double relaxed = 0.0;
   std::vector<PronyBranch> branches{};
+
+  double instantaneous() const;  ///< with all branches [Pa]
 };
 
 struct Retardation {

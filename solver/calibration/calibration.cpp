@@ -65,6 +65,17 @@ void check(const FitProblem& problem) {
 
 }  // namespace
 
+void set_limits(std::vector<FitParameter>& parameters, const std::vector<FitParameter>& limits) {
+  for (FitParameter& p : parameters)
+    for (const FitParameter& limit : limits)
+      if (limit.name == p.name) {
+        p.lower = limit.lower;
+        p.upper = limit.upper;
+        p.prior = limit.prior;
+        p.first = std::clamp(p.first, p.lower, p.upper);
+      }
+}
+
 std::vector<double> FitResult::values() const {
   std::vector<double> result;
   for (const FitEstimate& estimate : estimates) result.push_back(estimate.value);

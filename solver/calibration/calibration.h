@@ -32,6 +32,9 @@ struct FitParameter {
   bool is_sampled = true;                      ///< other starts have other values of it
 };
 
+/// Gives the parameters that stand among the limits, by name, their bounds and prior; first guesses come to lie within.
+void set_limits(std::vector<FitParameter>& parameters, const std::vector<FitParameter>& limits);
+
 /// Residuals at these parameters, always as many; nothing where the model does not converge.
 using Residuals = std::function<std::optional<std::vector<double>>(std::span<const double> parameters)>;
 /// d residual_i / d parameter_j; nothing where the model does not converge.

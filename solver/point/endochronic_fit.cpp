@@ -67,17 +67,6 @@ void sort_kernel(EndochronicLaw& law) {
   std::ranges::sort(law.kernel, [](const KernelTerm& a, const KernelTerm& b) { return a.alpha > b.alpha; });
 }
 
-void set_limits(std::vector<FitParameter>& parameters, const std::vector<FitParameter>& limits) {
-  for (FitParameter& p : parameters)
-    for (const FitParameter& limit : limits)
-      if (limit.name == p.name) {
-        p.lower = limit.lower;
-        p.upper = limit.upper;
-        p.prior = limit.prior;
-        p.first = std::clamp(p.first, p.lower, p.upper);
-      }
-}
-
 }  // namespace
 
 std::vector<FitParameter> fit_parameters(const EndochronicLaw& law, const FitChoice& choice) {

@@ -1,12 +1,9 @@
 #include "solver/point/viscoelastic_fit.h"
 
-#include "physics/quantity_text.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace pfdm {
 namespace {
@@ -16,12 +13,6 @@ constexpr double least_scatter = 1e-6;  // of values that the law meets but for 
 constexpr double reach_of_modulus = 1e7, reach_of_time = 1e3;
 constexpr double least_modulus = 1e-3, largest_modulus = 1e15;  // [Pa], as cases take them
 constexpr double least_nu = -0.99, largest_nu = 0.4999;
-
-double rms_of(std::span<const double> values) {
-  double sum = 0.0;
-  for (const double value : values) sum += value * value;
-  return std::sqrt(sum / static_cast<double>(std::max<std::size_t>(values.size(), 1)));
-}
 
 /// Calls visit(name, unit, value) for every chosen value but Poisson's ratio.
 template <class Branches, class Visit>
@@ -42,11 +33,11 @@ FitParameter on_log_scale(std::string name, std::string_view unit, double first,
 }
 
 std::vector<double> response_over_time(const RelaxationModulus& modulus, const ViscoelasticExperiment& experiment) {
-  const LoadPath path = whole_path(experiment);
+  const LoadPath path = whole_path(experiment, experiment.followed);
   std::vector<double> answer = experiment.follows_stress
                                    ? strain_response(creep_compliance(modulus), path.times, path.followed)
                                    : stress_response(modulus, path.times, path.followed);
-  answer.erase(answer.begin(), answer.begin() + path.added);
+  answer.erase(answer.begin(), answer.begin() + static_cast<std::ptrdiff_t>(path.added));
   return answer;
 }
 
@@ -85,17 +76,13 @@ void append_deviations(const ViscoelasticExperiment& experiment, std::size_t c, 
   for (const double s : scale) all.push_back(part * s);
 }
 
-void put_limits(std::vector<FitParameter>& parameters, const std::vector<FitParameter>& limits) {
-  for (FitParameter& p : parameters)
-    for (const FitParameter& limit : limits)
-      if (limit.name == p.name) {
-        p.lower = limit.lower;
-        p.upper = limit.upper;
-        p.first = std::clamp(p.first, p.lower, p.upper);
-      }
-}
-
 }  // namespace
+
+double rms_of(std::span<const double> values) {
+  double sum = 0.0;
+  for (const double value : values) sum += value * value;
+  return std::sqrt(sum / static_cast<double>(std::max<std::size_t>(values.size(), 1)));
+}
 
 std::string_view name_of(MeasuredQuantity quantity) {
   constexpr std::string_view names[] = {"stress", "strain", "storage modulus", "loss modulus", "loss factor"};
@@ -229,7 +216,7 @@ ViscoelasticFit fit_law(const PronyLaw& law, const ViscoelasticChoice& choice,
   // A second, short fit gives the statistics in the order of the sorted branches.
   for (int turn = 0; turn < 2; ++turn) {
     fitted.parameters = fit_parameters(fitted.law, choice, window);
-    put_limits(fitted.parameters, limits);
+    set_limits(fitted.parameters, limits);
     const PronyLaw base = fitted.law;
     fitted.result = fit({.parameters = fitted.parameters,
                          .residuals = [&](std::span<const double> values) -> std::optional<std::vector<double>> {

@@ -53,10 +53,11 @@ std::string text_of(const TimeWindow& window);
 /// What was followed over time, from rest.
 struct LoadPath {
   std::vector<double> times, followed;
-  std::ptrdiff_t added = 0;  ///< rows before those of the experiment
+  std::size_t added = 0;  ///< rows before those of the experiment
 };
-/// With the step before the first row, if there is a ramp.
-LoadPath whole_path(const ViscoelasticExperiment& experiment);
+/// With the step before the first row, if there is a ramp. `followed`: at the times of the experiment, its own or what
+/// was measured in its place.
+LoadPath whole_path(const ViscoelasticExperiment& experiment, const std::vector<double>& followed);
 
 /// What is estimated. Bulk branches are not.
 struct ViscoelasticChoice {
@@ -88,6 +89,9 @@ std::size_t n_measured(const ViscoelasticExperiments& experiments);
 std::vector<double> deviations(const PronyLaw& law, const ViscoelasticExperiments& experiments);
 /// The same before there is a law: by the measured values; 1 % where the noise is not known.
 std::vector<double> first_deviations(const ViscoelasticExperiments& experiments);
+
+/// Root of the mean square; zero of no values.
+double rms_of(std::span<const double> values);
 
 /// Model less measurement over its deviation.
 std::vector<double> fit_residuals(const PronyLaw& law, const ViscoelasticExperiments& experiments,

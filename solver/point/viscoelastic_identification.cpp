@@ -173,10 +173,7 @@ PronyLaw law_with_most(const Problem& p, std::span<const double> deviations) {
 /// speaks against it.
 std::string doubt_of_bulk(const PronyLaw& law, const ViscoelasticExperiments& experiments) {
   const auto is_tension = [](const ViscoelasticExperiment& e) { return e.deformation == Deformation::tension; };
-  double mu = law.relaxed.mu, K = law.relaxed.bulk_modulus();
-  for (const PronyBranch& branch : law.shear) mu += branch.modulus;
-  for (const PronyBranch& branch : law.bulk) K += branch.modulus;
-  const double at_once = (3.0 * K - 2.0 * mu) / (2.0 * (3.0 * K + mu)), relaxed = law.relaxed.poisson_ratio();
+  const double at_once = instantaneous_elasticity(law).poisson_ratio(), relaxed = law.relaxed.poisson_ratio();
   if (std::ranges::none_of(experiments, is_tension) || at_once > relaxed - softer_nu) return "";
   return fmt::format(
       "Poisson's ratio would be {:.2g} at once and {:.2g} relaxed, as the bulk modulus is taken as that of the relaxed "

@@ -11,18 +11,6 @@ namespace {
 constexpr int per_decade = 6;        // of the fine grid
 constexpr double small_part = 0.02;  // of all moduli: a branch that is added
 
-double sum_of_moduli(const PronyLaw& law) {
-  double sum = law.relaxed.mu;
-  for (const PronyBranch& branch : law.shear) sum += branch.modulus;
-  return sum;
-}
-
-double rms(const std::vector<double>& values) {
-  double sum = 0.0;
-  for (const double value : values) sum += value * value;
-  return std::sqrt(sum / static_cast<double>(values.size()));
-}
-
 /// Rows of the linear problem in the moduli.
 class LinearProblem {
  public:
@@ -72,25 +60,17 @@ class LinearProblem {
 
   /// Stresses by strains, whichever was followed.
   void add_history(const ViscoelasticExperiment& experiment, const ViscoelasticExperiment::Channel& channel) {
-    ViscoelasticExperiment swapped = experiment;
-    if (experiment.follows_stress) swapped.followed = channel.values;
+    const LoadPath strains = whole_path(experiment, experiment.follows_stress ? channel.values : experiment.followed);
     const std::vector<double>& stresses = experiment.follows_stress ? experiment.followed : channel.values;
-    const double stiffness = experiment.follows_stress ? rms(stresses) / rms(channel.values) : 1.0;
+    const double stiffness = experiment.follows_stress ? rms_of(stresses) / rms_of(channel.values) : 1.0;
     std::vector<std::vector<double>> columns;
-    for (const RelaxationModulus& unit : units_) columns.push_back(of_unit(swapped, unit));
+    for (const RelaxationModulus& unit : units_)
+      columns.push_back(stress_response(unit, strains.times, strains.followed));
     for (std::size_t i = 0; i < stresses.size(); ++i) {
       Eigen::VectorXd row(std::ssize(units_));
-      for (std::size_t j = 0; j < units_.size(); ++j) row[static_cast<Eigen::Index>(j)] = columns[j][i];
+      for (std::size_t j = 0; j < units_.size(); ++j) row[static_cast<Eigen::Index>(j)] = columns[j][strains.added + i];
       add_row(row, stresses[i], stiffness * deviations_[done_ + i]);
     }
-  }
-
-  std::vector<double> of_unit(const ViscoelasticExperiment& experiment, const RelaxationModulus& unit) const {
-    std::vector<double> times = experiment.times, strains = experiment.followed;
-    if (experiment.ramp > 0.0) times.insert(times.begin(), -experiment.ramp), strains.insert(strains.begin(), 0.0);
-    std::vector<double> stresses = stress_response(unit, times, strains);
-    if (experiment.ramp > 0.0) stresses.erase(stresses.begin());
-    return stresses;
   }
 
   /// Of a loss factor: loss less the factor times storage is zero.
@@ -113,7 +93,7 @@ class LinearProblem {
   double storage_at(const ViscoelasticExperiment& experiment, std::size_t i) const {
     for (const ViscoelasticExperiment::Channel& channel : experiment.channels)
       if (channel.quantity == MeasuredQuantity::storage_modulus) return channel.values[i];
-    return factor_ * sum_of_moduli(law_);
+    return factor_ * shear_modulus(law_).instantaneous();
   }
 
   void add_row(const Eigen::VectorXd& row, double right, double deviation) {
@@ -201,7 +181,8 @@ PronyLaw with_one_more(const PronyLaw& law, const TimeWindow& window) {
   for (std::size_t i = 1; i + 1 < places.size(); ++i)
     if (places[i + 1] / places[i] > places[widest + 1] / places[widest]) widest = i;
   PronyLaw result = law;
-  result.shear.push_back({small_part * sum_of_moduli(law), std::sqrt(places[widest] * places[widest + 1])});
+  result.shear.push_back(
+      {small_part * shear_modulus(law).instantaneous(), std::sqrt(places[widest] * places[widest + 1])});
   std::ranges::sort(result.shear, {}, &PronyBranch::time);
   return result;
 }

@@ -11,16 +11,6 @@
 
 namespace pfdm {
 
-LoadPath whole_path(const ViscoelasticExperiment& experiment) {
-  LoadPath path{experiment.times, experiment.followed};
-  if (experiment.ramp > 0.0) {
-    path.times.insert(path.times.begin(), experiment.times.front() - experiment.ramp);
-    path.followed.insert(path.followed.begin(), 0.0);
-    path.added = 1;
-  }
-  return path;
-}
-
 namespace {
 
 /// From the last row at rest to the end, and the shortest step in which the load changes, or after such a one: what
@@ -44,11 +34,21 @@ TimeWindow window_of(const LoadPath& path) {
 
 }  // namespace
 
+LoadPath whole_path(const ViscoelasticExperiment& experiment, const std::vector<double>& followed) {
+  LoadPath path{experiment.times, followed};
+  if (experiment.ramp > 0.0) {
+    path.times.insert(path.times.begin(), experiment.times.front() - experiment.ramp);
+    path.followed.insert(path.followed.begin(), 0.0);
+    path.added = 1;
+  }
+  return path;
+}
+
 TimeWindow time_window(const ViscoelasticExperiments& experiments) {
   TimeWindow window{.shortest = std::numeric_limits<double>::infinity(), .longest = 0.0};
   for (const ViscoelasticExperiment& experiment : experiments) {
     if (!experiment.is_frequency_sweep()) {
-      const TimeWindow of_history = window_of(whole_path(experiment));
+      const TimeWindow of_history = window_of(whole_path(experiment, experiment.followed));
       window.shortest = std::min(window.shortest, of_history.shortest);
       window.longest = std::max(window.longest, of_history.longest);
     }

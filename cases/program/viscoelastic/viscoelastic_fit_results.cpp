@@ -92,16 +92,10 @@ FitFindings judged_tests(const ViscoelasticFitCase& fit, const ViscoelasticIdent
 
 ExperimentMisfit misfit_of(const ViscoelasticExperiment& test, const PronyLaw& law) {
   const std::vector<double> parts = relative_misfits(law, test);
-  double squares = 0.0;
-  for (const double part : parts) squares += part * part;
-  ExperimentMisfit misfit{.name = test.name,
-                          .n_data = n_measured({test}),
-                          .relative = std::sqrt(squares / static_cast<double>(parts.size())),
-                          .curve = fit_curve_file(test.name)};
+  ExperimentMisfit misfit{
+      .name = test.name, .n_data = n_measured({test}), .relative = rms_of(parts), .curve = fit_curve_file(test.name)};
   if (test.is_frequency_sweep()) return misfit;
-  double rms = 0.0;
-  for (const double value : test.channels[0].values) rms += value * value;
-  rms = std::sqrt(rms / static_cast<double>(test.channels[0].values.size()));
+  const double rms = rms_of(test.channels[0].values);
   misfit.absolute = {.rms = parts[0] * rms,
                      .rms_measured = rms,
                      .quantity = std::string(name_of(test.channels[0].quantity)),
