@@ -33,8 +33,8 @@ Table series_table(const PronyLaw& law) {
   return table;
 }
 
-/// Rows of the columns after time zero, on a logarithmic axis.
-void leave_out_start(std::vector<double>& x, std::vector<double>& y) {
+/// Keeps the rows with a positive x, which a logarithmic axis can show.
+void keep_positive(std::vector<double>& x, std::vector<double>& y) {
   std::size_t n = 0;
   for (std::size_t i = 0; i < x.size(); ++i)
     if (x[i] > 0.0) x[n] = x[i], y[n++] = y[i];
@@ -46,51 +46,51 @@ bool spans_decades(const std::vector<double>& times) {
   return first != times.end() && times.back() > many_decades * *first;
 }
 
-/// A quantity over the time, of a column or two: points are measured.
-Chart over_time(const std::string& caption, const CsvTable& table, std::string_view quantity,
-                const std::vector<std::pair<std::string, std::string>>& columns) {
-  const bool is_stress = quantity == "stress", logarithmic = spans_decades(table.column("time_s"));
+/// Columns of a table by their label.
+using Columns = std::vector<std::pair<std::string, std::string>>;
+
+DisplayUnit unit_of_columns(const CsvTable& table, const Columns& columns, std::string_view si_unit) {
   std::vector<std::vector<double>> values;
   for (const auto& [column, label] : columns) values.push_back(table.column(column));
-  const DisplayUnit unit = is_stress ? common_unit(values, "Pa") : DisplayUnit{.factor = 100.0, .name = "%"};
-  Chart chart{.caption = caption,
-              .x = {.title = "time [s]", .logarithmic = logarithmic},
-              .y = {.title = fmt::format("{} [{}]", quantity, unit.name)},
-              .series = {}};
-  for (std::size_t i = 0; i < columns.size(); ++i) {
-    std::vector<double> x = table.column("time_s"), y = in_unit(values[i], unit);
-    if (logarithmic) leave_out_start(x, y);
-    const bool measured = columns[i].first.starts_with("measured");
-    chart.series.push_back({.label = columns[i].second,
+  return common_unit(values, si_unit);
+}
+
+/// Adds the columns over another one to the chart: points if they are measured, and none that an axis cannot show.
+void add_series(const CsvTable& table, const std::string& along, const Columns& columns, const DisplayUnit& unit,
+                Chart& chart) {
+  for (const auto& [column, label] : columns) {
+    std::vector<double> x = table.column(along), y = in_unit(table.column(column), unit);
+    if (chart.x.logarithmic) keep_positive(x, y);
+    if (chart.y.logarithmic) keep_positive(y, x);  // what noise has made negative
+    chart.series.push_back({.label = label,
                             .x = x,
                             .y = y,
-                            .style = measured ? SeriesStyle::points : SeriesStyle::line,
-                            .colour = static_cast<int>(i)});
+                            .style = column.starts_with("measured") ? SeriesStyle::points : SeriesStyle::line,
+                            .colour = static_cast<int>(chart.series.size())});
   }
+}
+
+/// A quantity over the time, of a column or two.
+Chart over_time(const std::string& caption, const CsvTable& table, std::string_view quantity, const Columns& columns) {
+  const DisplayUnit unit =
+      quantity == "stress" ? unit_of_columns(table, columns, "Pa") : DisplayUnit{.factor = 100.0, .name = "%"};
+  Chart chart{.caption = caption,
+              .x = {.title = "time [s]", .logarithmic = spans_decades(table.column("time_s"))},
+              .y = {.title = fmt::format("{} [{}]", quantity, unit.name)},
+              .series = {}};
+  add_series(table, "time_s", columns, unit, chart);
   return chart;
 }
 
 /// Moduli [Pa], or loss factors, over the frequency.
-Chart over_frequency(const std::string& caption, const CsvTable& table, bool moduli,
-                     const std::vector<std::pair<std::string, std::string>>& columns) {
-  std::vector<std::vector<double>> values;
-  for (const auto& [column, label] : columns) values.push_back(table.column(column));
-  const DisplayUnit unit = moduli ? common_unit(values, "Pa") : DisplayUnit{.factor = 1.0, .name = "1"};
+Chart over_frequency(const std::string& caption, const CsvTable& table, bool moduli, const Columns& columns) {
+  const DisplayUnit unit = moduli ? unit_of_columns(table, columns, "Pa") : DisplayUnit{.factor = 1.0, .name = "1"};
   Chart chart{
       .caption = caption,
       .x = {.title = "frequency [Hz]", .logarithmic = true},
       .y = {.title = moduli ? fmt::format("modulus [{}]", unit.name) : "loss factor [1]", .logarithmic = moduli},
       .series = {}};
-  for (std::size_t i = 0; i < columns.size(); ++i) {
-    std::vector<double> x = table.column("frequency_Hz"), y = in_unit(values[i], unit);
-    if (moduli) leave_out_start(y, x);  // what noise has made negative
-    const bool measured = columns[i].first.starts_with("measured");
-    chart.series.push_back({.label = columns[i].second,
-                            .x = x,
-                            .y = y,
-                            .style = measured ? SeriesStyle::points : SeriesStyle::line,
-                            .colour = static_cast<int>(i)});
-  }
+  add_series(table, "frequency_Hz", columns, unit, chart);
   return chart;
 }
 
@@ -116,9 +116,8 @@ std::vector<PageRow> rows_of_run(const ViscoelasticCase& c, const fs::path& resu
 }
 
 /// The columns of a fitted curve with one of these quantities, measured and fitted side by side.
-std::vector<std::pair<std::string, std::string>> pairs_of(const CsvTable& curve,
-                                                          std::initializer_list<std::string_view> quantities) {
-  std::vector<std::pair<std::string, std::string>> columns;
+Columns pairs_of(const CsvTable& curve, std::initializer_list<std::string_view> quantities) {
+  Columns columns;
   for (const std::string_view quantity : quantities)
     for (const char* what : {"measured", "fitted"})
       for (const std::string& name : curve.names)
