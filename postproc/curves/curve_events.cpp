@@ -193,6 +193,10 @@ double ComputedEvent::of(EventFigure figure) const {
   return figure == EventFigure::force_after ? force_after : force_before;
 }
 
+double residual_of(const ComputedEvent& computed, const MeasuredFigure& measured) {
+  return (computed.of(measured.figure) - measured.value) / measured.deviation;
+}
+
 ComputedEvent computed_event(const MeasuredEvent& event, const SampledCurve& model) {
   switch (event.kind) {
     case EventKind::jump: return computed_jump(event, model);

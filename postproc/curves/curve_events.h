@@ -57,6 +57,17 @@ struct ComputedEvent {
   double of(EventFigure figure) const;
 };
 
+/// Computed less measured over the standard deviation.
+double residual_of(const ComputedEvent& computed, const MeasuredFigure& measured);
+
+/// Calls take(event, figure) for each figure that counts, in the order of the residuals.
+template <class Take>
+void for_each_datum(const std::vector<MeasuredEvent>& events, const Take& take) {
+  for (const MeasuredEvent& event : events)
+    for (const MeasuredFigure& figure : event.figures)
+      if (figure.counts) take(event, figure);
+}
+
 /// A jump is one step in which the force falls by more than least_fall, or several such steps one after the other; it
 /// lies in the middle of the one that falls most. Without such a step it is where the force falls most in one, beyond
 /// jumps with a smaller number, and where it falls nowhere at the end of the curve: what it says then goes over into

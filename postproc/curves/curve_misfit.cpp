@@ -113,14 +113,6 @@ std::optional<std::vector<double>> averaged_pointwise(const ModelCurves& models,
   return residuals;
 }
 
-/// Calls `take(event, figure)` for each datum, in the order of the residuals.
-template <class Take>
-void for_each_datum(const MeasuredPoints& measured, const Take& take) {
-  for (const MeasuredEvent& event : measured.events)
-    for (const MeasuredFigure& figure : event.figures)
-      if (figure.counts) take(event, figure);
-}
-
 /// `pointwise`: residuals of the points by curves for each specimen.
 template <class Pointwise>
 std::optional<std::vector<double>> with_events(const ModelCurves& models, const MeasuredPoints& measured,
@@ -128,9 +120,8 @@ std::optional<std::vector<double>> with_events(const ModelCurves& models, const 
   if (measured.events.empty()) return pointwise(models, measured);
   auto residuals = pointwise(moved_to_events(models, measured), measured);
   if (!residuals) return std::nullopt;
-  for_each_datum(measured, [&](const MeasuredEvent& event, const MeasuredFigure& figure) {
-    const ComputedEvent computed = computed_event(event, model_of(models, {.specimen = event.specimen}));
-    residuals->push_back((computed.of(figure.figure) - figure.value) / figure.deviation);
+  for_each_datum(measured.events, [&](const MeasuredEvent& event, const MeasuredFigure& figure) {
+    residuals->push_back(residual_of(computed_event(event, model_of(models, {.specimen = event.specimen})), figure));
   });
   return residuals;
 }
@@ -239,7 +230,7 @@ std::vector<std::vector<double>> set_up_errors(const ModelCurves& models, const 
     const double effects[] = {1.0, slope, slope * force, force, slope * x};
     for (std::size_t k = 0; k < columns.size(); ++k) columns[k].push_back(effects[k] / scale);
   }
-  for_each_datum(measured, [&](const MeasuredEvent& event, const MeasuredFigure& figure) {
+  for_each_datum(measured.events, [&](const MeasuredEvent& event, const MeasuredFigure& figure) {
     const ComputedEvent computed = computed_event(event, model_of(models, {.specimen = event.specimen}));
     const double force = computed.of(figure.figure), before = computed.force_before;
     const double of_force[] = {1.0, 0.0, 0.0, force, 0.0};

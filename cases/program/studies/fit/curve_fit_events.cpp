@@ -14,10 +14,6 @@ namespace {
 
 constexpr double surely_elsewhere = 4.0;  // standard deviations
 
-double residual_of(const ComputedEvent& computed, const MeasuredFigure& figure) {
-  return (computed.of(figure.figure) - figure.value) / figure.deviation;
-}
-
 std::string lacking_text(const MeasuredEvent& event, const std::string& specimen) {
   if (event.kind == EventKind::first_debonding)
     return fmt::format(

@@ -37,19 +37,16 @@ std::vector<std::string> changes_of_events(const MeasuredPoints& points, const E
                                            const std::vector<Move>& moves) {
   std::vector<std::string> sentences;
   auto row = std::ssize(points.points);
-  for (const MeasuredEvent& event : points.events)
-    for (const MeasuredFigure& figure : event.figures) {
-      if (!figure.counts) continue;
-      std::vector<std::string> changes;
-      for (std::size_t k = 0; k < moves.size(); ++k) {
-        const double change = moves[k].by * figure.deviation * derivatives(row, static_cast<Eigen::Index>(k));
-        changes.push_back(
-            fmt::format("{} with {}", quantity_text(change, std::string(unit_of(figure.figure)), 3), moves[k].told));
-      }
-      sentences.push_back(
-          fmt::format("{} of {} changes by {}", name_of(figure.figure), event.name(), fmt::join(changes, ", by ")));
-      ++row;
+  for_each_datum(points.events, [&](const MeasuredEvent& event, const MeasuredFigure& figure) {
+    std::vector<std::string> changes;
+    for (std::size_t k = 0; k < moves.size(); ++k) {
+      const double change = moves[k].by * figure.deviation * derivatives(row, static_cast<Eigen::Index>(k));
+      changes.push_back(fmt::format("{} with {}", quantity_text(change, unit_of(figure.figure), 3), moves[k].told));
     }
+    sentences.push_back(
+        fmt::format("{} of {} changes by {}", name_of(figure.figure), event.name(), fmt::join(changes, ", by ")));
+    ++row;
+  });
   return sentences;
 }
 
