@@ -14,11 +14,9 @@
 #include <vtkInformation.h>
 #include <vtkInformationStringKey.h>
 #include <vtkPointData.h>
-#include <vtkUnsignedCharArray.h>
 
 #include <algorithm>
 #include <cstdint>
-#include <cstring>
 #include <deque>
 #include <optional>
 #include <string_view>
