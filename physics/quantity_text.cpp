@@ -57,6 +57,10 @@ ScaledUnit scaled_unit(double largest, std::string_view si_unit) {
   return {.factor = std::pow(1e3, -chosen->power * exponent), .name = fmt::format("{}{}", chosen->sign, si_unit)};
 }
 
+ScaledUnit scaled_seconds(double largest) {
+  return std::abs(largest) < 1.0 ? scaled_unit(largest, "s") : ScaledUnit{1.0, "s"};
+}
+
 std::string quantity_text(double si, std::string_view si_unit, int digits) {
   if (!std::isfinite(si)) return "-";
   const ScaledUnit unit = scaled_unit(si, si_unit);

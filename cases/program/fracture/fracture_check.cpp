@@ -17,7 +17,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -30,13 +29,6 @@ void say_regions(const Mesh& mesh, Log& log) {
   for (const Index region : mesh.region) ++cells[region];
   for (std::size_t i = 0; i < cells.size(); ++i)
     log.say(fmt::format("  region {:<16} {:>9} cells", mesh.region_names[i], cells[i]));
-}
-
-std::vector<std::string> lines_of(const std::string& text) {
-  std::vector<std::string> lines;
-  std::istringstream stream(text);
-  for (std::string line; std::getline(stream, line);) lines.push_back(line);
-  return lines;
 }
 
 void check_fit(const FractureProgram& program, Log& log) {
@@ -117,7 +109,7 @@ void mesh_fracture(const FractureProgram& program, Session& session) {
   const Mesh mesh = made_mesh(program, session.log);
   model_on(program.fracture, mesh);
   const FolderLock lock(session.results);
-  for (const std::string& line : lines_of(describe(mesh_quality(mesh)))) session.log.say(line);
+  session.log.say_lines(describe(mesh_quality(mesh)));
   write_mesh(session.results, mesh);
   session.log.say(fmt::format("written to {}", (session.results / "mesh.vtu").string()));
 }

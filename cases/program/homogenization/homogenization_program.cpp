@@ -17,8 +17,6 @@
 
 #include <fmt/format.h>
 
-#include <sstream>
-
 namespace pfdm {
 namespace {
 
@@ -58,8 +56,7 @@ void mesh_only(const HomogenizationProgram& program, Session& session) {
   const Mesh mesh = make_mesh(program, session.log);
   composite_on(program.homogenization, mesh);
   const FolderLock lock(session.results);
-  std::istringstream lines(describe(mesh_quality(mesh)));
-  for (std::string line; std::getline(lines, line);) session.log.say(line);
+  session.log.say_lines(describe(mesh_quality(mesh)));
   write_mesh(session.results, mesh);
   session.log.say(fmt::format("written to {}", (session.results / "mesh.vtu").string()));
 }
@@ -67,19 +64,11 @@ void mesh_only(const HomogenizationProgram& program, Session& session) {
 void write_summary_of(const HomogenizationProgram& program, const Session& session, const Mesh& mesh,
                       const Homogenized& result, const EffectiveMaterial& material, double seconds,
                       const std::filesystem::path& folder) {
-  RunSummary summary;
-  summary.case_name = program.name;
-  summary.status = "complete";
-  summary.version = session.version;
-  summary.case_hash = program.hash;
-  summary.threads = session.threads;
+  RunSummary summary = complete_run(program.name, program.hash, session, seconds);
   summary.cells = mesh.n_cells();
   summary.unknowns = result.n_unknowns;
   summary.steps = count_of(result.cases);
   for (const LoadCase& one : result.cases) summary.krylov_iterations += one.iterations;
-  summary.wall_seconds = seconds;
-  summary.cpu_seconds = cpu_seconds();
-  summary.peak_memory = peak_memory();
   summary.other_figures = homogenized_figures(program.homogenization, result, material);
   write_summary(folder / summary_file, summary);
 }

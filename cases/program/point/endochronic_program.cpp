@@ -57,16 +57,9 @@ constexpr const char* history_file = "history.csv";
 void write_results(const EndochronicProgram& program, const HistoryResult& history, const Session& session,
                    const std::filesystem::path& folder, double seconds) {
   write_csv(folder / history_file, history_table(program.point.law, history));
-  RunSummary summary;
-  summary.case_name = program.name;
-  summary.status = history.converged ? "complete" : "failed: " + history.failure;
-  summary.version = session.version;
-  summary.case_hash = program.hash;
-  summary.threads = session.threads;
+  RunSummary summary = complete_run(program.name, program.hash, session, seconds);
+  if (!history.converged) summary.status = "failed: " + history.failure;
   summary.steps = static_cast<Index>(history.points.size() - 1);
-  summary.wall_seconds = seconds;
-  summary.cpu_seconds = cpu_seconds();
-  summary.peak_memory = peak_memory();
   summary.other_figures = history_figures(program.point.law, history);
   summary.other_counts = {{"newton_iterations", newton_iterations(history)}};
   write_summary(folder / summary_file, summary);

@@ -4,7 +4,6 @@
 #include "cases/program/session/earlier_results.h"
 #include "cases/program/session/head_line.h"
 #include "cases/program/session/report_parts.h"
-#include "postproc/curves/summary.h"
 #include "postproc/files/folder_lock.h"
 #include "postproc/files/new_results.h"
 
@@ -42,6 +41,19 @@ FiguresSummary complete_summary(const std::string& name, const std::string& hash
           .wall_seconds = 0.0,
           .figures = {},
           .tests = {}};
+}
+
+RunSummary complete_run(const std::string& name, const std::string& hash, const Session& session, double seconds) {
+  RunSummary summary;
+  summary.case_name = name;
+  summary.status = "complete";
+  summary.version = session.version;
+  summary.case_hash = hash;
+  summary.threads = session.threads;
+  summary.wall_seconds = seconds;
+  summary.cpu_seconds = cpu_seconds();
+  summary.peak_memory = peak_memory();
+  return summary;
 }
 
 void run_whole(const WholeRun& run, Session& session) {

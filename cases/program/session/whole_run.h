@@ -5,6 +5,7 @@
 #include "cases/program/session/session.h"
 #include "cases/program/session/terminal/stopwatch.h"
 #include "postproc/curves/figures_summary.h"
+#include "postproc/curves/summary.h"
 
 #include <filesystem>
 #include <functional>
@@ -28,6 +29,9 @@ struct WholeRun {
 
 /// What every run says of itself; time, figures and tests are to be added.
 FiguresSummary complete_summary(const std::string& name, const std::string& hash, const Session& session);
+
+/// Likewise, with the processor time and the memory of the program so far; `seconds`: how long the run took.
+RunSummary complete_run(const std::string& name, const std::string& hash, const Session& session, double seconds);
 
 /// Locks the results' folder, computes, and puts the results there. Throws ComputationError.
 void run_whole(const WholeRun& run, Session& session);

@@ -30,17 +30,11 @@ struct ViscoelasticProgram {
   std::string hash;
 };
 
-double at_once(const RelaxationModulus& modulus) {
-  double sum = modulus.relaxed;
-  for (const PronyBranch& branch : modulus.branches) sum += branch.modulus;
-  return sum;
-}
-
 void say_series(const PronyLaw& law, Log& log) {
   const RelaxationModulus E = young_modulus(law), mu = shear_modulus(law);
   log.say(fmt::format("  Young's modulus {}, shear modulus {}: relaxed and at once",
-                      quantities_text({E.relaxed, at_once(E)}, "Pa", " and "),
-                      quantities_text({mu.relaxed, at_once(mu)}, "Pa", " and ")));
+                      quantities_text({E.relaxed, E.instantaneous()}, "Pa", " and "),
+                      quantities_text({mu.relaxed, mu.instantaneous()}, "Pa", " and ")));
   for (const auto& [what, branches] : {std::pair("shear", &law.shear), std::pair("bulk", &law.bulk)})
     for (const PronyBranch& branch : *branches)
       log.say(fmt::format("  {} branch {}, {}", what, quantity_text(branch.modulus, "Pa"),
@@ -110,9 +104,9 @@ CsvTable moduli_of(const FrequencyRange& range, const PronyLaw& law) {
 std::map<std::string, double> figures_of(const PronyLaw& law, const CsvTable* history, const CsvTable* moduli) {
   const RelaxationModulus E = young_modulus(law), mu = shear_modulus(law);
   std::map<std::string, double> figures{{"relaxed_young_modulus_Pa", E.relaxed},
-                                        {"instantaneous_young_modulus_Pa", at_once(E)},
+                                        {"instantaneous_young_modulus_Pa", E.instantaneous()},
                                         {"relaxed_shear_modulus_Pa", mu.relaxed},
-                                        {"instantaneous_shear_modulus_Pa", at_once(mu)}};
+                                        {"instantaneous_shear_modulus_Pa", mu.instantaneous()}};
   if (history != nullptr) {
     const std::vector<double>& stress = history->column("stress_Pa");
     figures["largest_stress_Pa"] = std::ranges::max(stress, {}, [](double s) { return std::abs(s); });
@@ -136,16 +130,8 @@ void run_case(const ViscoelasticProgram& program, Session& session) {
     std::optional<CsvTable> history, moduli;
     if (c.loading) write_csv(folder / "history.csv", history.emplace(history_of(*c.loading, c.law)));
     if (c.sweep) write_csv(folder / "complex_modulus.csv", moduli.emplace(moduli_of(*c.sweep, c.law)));
-    RunSummary summary;
-    summary.case_name = program.name;
-    summary.status = "complete";
-    summary.version = session.version;
-    summary.case_hash = program.hash;
-    summary.threads = session.threads;
+    RunSummary summary = complete_run(program.name, program.hash, session, watch.seconds());
     summary.steps = history ? static_cast<Index>(history->n_rows() - 1) : 0;
-    summary.wall_seconds = watch.seconds();
-    summary.cpu_seconds = cpu_seconds();
-    summary.peak_memory = peak_memory();
     summary.other_figures = figures_of(c.law, history ? &*history : nullptr, moduli ? &*moduli : nullptr);
     write_summary(folder / summary_file, summary);
     if (history)
@@ -166,12 +152,7 @@ void run_case(const ViscoelasticProgram& program, Session& session) {
 
 void say_material(const PronyLaw& law, Log& log) {
   log.say("as a material of a fracture case, to be pasted below [materials.NAME] (all digits: case.fitted.toml):");
-  std::string text = "law = \"prony\"\n" + to_toml(law, 6);
-  while (!text.empty()) {
-    const std::size_t end = text.find('\n');
-    log.say("  " + text.substr(0, end));
-    text.erase(0, end + 1);
-  }
+  log.say_lines("law = \"prony\"\n" + to_toml(law, 6), "  ");
 }
 
 void fit_case(const ViscoelasticProgram& program, Session& session) {
@@ -188,8 +169,7 @@ void fit_case(const ViscoelasticProgram& program, Session& session) {
   const FitFindings findings = write_fit_results(session.results, program.file, fit, found,
                                                  {program.name, program.hash, session.version, seconds});
   for (const FittedParameter& p : findings.parameters) {
-    const bool is_long = p.unit == "s" && p.estimate >= 1.0;  // no kiloseconds
-    const ScaledUnit unit = is_long ? ScaledUnit{1.0, p.unit} : scaled_unit(std::abs(p.estimate), p.unit);
+    const ScaledUnit unit = p.unit == "s" ? scaled_seconds(p.estimate) : scaled_unit(p.estimate, p.unit);
     log.say(fmt::format("  {:<14} {:.6g} {}, {}", p.name, unit.factor * p.estimate, unit.name,
                         interval_text(unit.factor * p.lower, unit.factor * p.upper)));
   }

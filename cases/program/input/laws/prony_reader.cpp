@@ -16,9 +16,10 @@ std::vector<PronyBranch> read_branches(const ConfigTable& material, std::string_
   return branches;
 }
 
-/// "12.5 ms", "40 s": without kiloseconds.
+/// "12.5 ms", "40 s".
 std::string time_text(double time, int digits) {
-  return time < 1.0 ? quantity_text(time, "s", digits) : fmt::format("{:.{}g} s", time, digits);
+  const ScaledUnit unit = scaled_seconds(time);
+  return fmt::format("{:.{}g} {}", unit.factor * time, digits, unit.name);
 }
 
 std::string branches_toml(std::string_view key, const std::vector<PronyBranch>& branches, int digits) {

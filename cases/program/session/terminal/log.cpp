@@ -11,6 +11,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <sstream>
 #include <vector>
 
 namespace pfdm {
@@ -73,6 +74,11 @@ void Log::say(const std::string& message) {
 }
 
 const std::vector<std::string>& Log::warnings() const { return sinks_->warnings; }
+
+void Log::say_lines(const std::string& text, const std::string& indent) {
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) say(indent + line);
+}
 
 void Log::warn(const std::string& given) {
   const std::string message = message_text(given);

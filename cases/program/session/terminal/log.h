@@ -26,6 +26,8 @@ class Log {
   void open_file(const std::filesystem::path& file, bool append);
 
   void say(const std::string& message);
+  /// Each line of a text.
+  void say_lines(const std::string& text, const std::string& indent = "");
   void warn(const std::string& message);
   /// What was warned of so far, each once.
   const std::vector<std::string>& warnings() const;
