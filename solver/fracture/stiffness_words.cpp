@@ -1,6 +1,7 @@
 #include "solver/fracture/stiffness_words.h"
 
 #include "solver/fracture/cells/relaxing_gaps.h"
+#include "solver/fracture/model/relaxing_volume.h"
 
 #include <fmt/format.h>
 
@@ -20,7 +21,7 @@ std::string why_without(const FractureModel& model, const RegionModel& region) {
 // pressures of their own, and of elasticity that depends on the direction.
 std::optional<IsotropicElasticity> against_volume(const RegionModel& region) {
   if (region.stiffness || (region.material && region.material->is_finite_strain())) return std::nullopt;
-  return region.material ? stiffest_against_volume(*region.material) : region.elasticity;
+  return region.material ? poisson_range(*region.material).greatest : region.elasticity;
 }
 
 // Cells that are nearly incompressible, at any time of materials that relax, and have no pressure.
@@ -50,7 +51,7 @@ std::optional<std::string> of_relaxation(const Mesh& mesh, const FractureModel& 
   std::size_t region = model.regions.size();
   for (std::size_t r = 0; r < model.regions.size(); ++r) {
     const auto& material = model.regions[r].material;
-    if (!material || material->is_finite_strain() || gaps_relax(*material, model.is_plane_stress())) continue;
+    if (!material || material->is_finite_strain() || gaps_relax(*material, model)) continue;
     const double ratio = material->elasticity().mu / material->relaxed_elasticity().mu;
     if (ratio > most) most = ratio, region = r;
   }

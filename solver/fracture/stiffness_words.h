@@ -9,9 +9,9 @@
 
 namespace pfdm {
 
-/// A line on the cell that is least compressible, where cells that would have a pressure have none: with splits without
-/// secant moduli, beside elasticity that depends on the direction, and of relaxing materials. Another line on a
-/// material of nu above 0.4 that relaxes far, as the gaps at its faces meet the instantaneous moduli.
+/// A line on the cell that is least compressible, where cells that would have a pressure have none, as with splits
+/// without secant moduli or beside elasticity that depends on the direction. Another line on a material that relaxes
+/// far and whose gaps do not (gaps_relax), as in plane stress: they meet the instantaneous moduli.
 std::vector<std::string> stiffness_warnings(const Mesh& mesh, const FractureModel& model);
 
 }  // namespace pfdm

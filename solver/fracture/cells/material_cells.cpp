@@ -33,10 +33,7 @@ CellField<const Material*> materials_of(const Mesh& mesh, const FractureModel& m
 }  // namespace
 
 MaterialCells::MaterialCells(const Mesh& mesh, const FractureModel& model)
-    : mesh_(mesh),
-      model_(model),
-      material_(materials_of(mesh, model)),
-      gaps_(mesh, material_, model.is_plane_stress()) {
+    : mesh_(mesh), model_(model), material_(materials_of(mesh, model)), gaps_(mesh, material_, model) {
   any_ = material_.size() > 0;
   if (!any_) return;
   tangent_ = CellField<MandelMatrix>(mesh.n_cells());
@@ -86,6 +83,7 @@ HistoryStress MaterialCells::history_stress(const CellHistories& histories) cons
   if (!gaps_.any()) return history;
   history.sound = CellField<IsotropicElasticity>(n);
   history.relaxes = CellField<char>(n, 0);
+  history.volumes = CellField<VolumeStress>(n);
   history.gaps.resize(mesh_.cell_faces.size());
   parallel_for(mesh_.n_cells(), [&](Index c) {
     history.sound[c] = model_.in_cell(mesh_, c).elasticity;

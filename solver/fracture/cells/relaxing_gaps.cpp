@@ -1,17 +1,18 @@
 #include "solver/fracture/cells/relaxing_gaps.h"
 
+#include "solver/fracture/model/relaxing_volume.h"
 #include "solver/momentum/body/momentum_faces.h"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
+#include <array>
 
 namespace pfdm {
 namespace {
 
-// Places among a cell's numbers; the faces follow, each with its gap, what is left of it in the shear branches, and
-// along its normal in the bulk branches.
-constexpr std::size_t heat = 0, locked_energy = 1, faces_from = 2;
+// Places among a cell's numbers; with a pressure the two volume changes, and what is left of both in each shear branch.
+// The faces follow, each with its gap, what is left of it in the shear branches, and along its normal in the bulk
+// branches.
+constexpr std::size_t heat = 0, locked_energy = 1, volumes_from = 2, branches_from = 4;
 
 struct Energy {
   double locked = 0.0, heat = 0.0;  // [Pa]
@@ -30,50 +31,37 @@ Eigen::Map<const Vector> vector_at(std::span<const double> numbers, std::size_t 
   return Eigen::Map<const Vector>(numbers.data() + at);
 }
 
+void advance_volumes(const std::vector<PronyDecay>& shear, const VolumeChanges& now, std::span<const double> from,
+                     std::span<double> to) {
+  const std::array<double, 2> changes{now.by_gradient, now.by_flux};
+  for (std::size_t j = 0; j < changes.size(); ++j) {
+    to[volumes_from + j] = changes[j];
+    for (std::size_t i = 0; i < shear.size(); ++i) {
+      const std::size_t at = branches_from + 2 * i + j;
+      to[at] = shear[i].left * from[at] + shear[i].phi * (changes[j] - from[volumes_from + j]);
+    }
+  }
+}
+
 }  // namespace
 
-bool gaps_relax(const Material& material, bool in_plane_stress) {
-  constexpr double most = 0.4 + 1e-6;  // Poisson's ratio
-  return material.relaxing() != nullptr && !in_plane_stress &&
-         stiffest_against_volume(material).poisson_ratio() <= most;
+bool gaps_relax(const Material& material, const FractureModel& model) {
+  if (material.relaxing() == nullptr || model.is_plane_stress()) return false;
+  return model.is_isotropic() || !relaxes_with_pressure(material);
 }
 
-IsotropicElasticity stiffest_against_volume(const Material& material) {
-  const PronyLaw* law = material.relaxing();
-  IsotropicElasticity worst = material.elasticity();
-  if (law == nullptr) return worst;
-  const auto consider = [&](const IsotropicElasticity& at) {
-    if (at.poisson_ratio() > worst.poisson_ratio()) worst = at;
-  };
-  const IsotropicElasticity relaxed = material.relaxed_elasticity();
-  consider(relaxed);
-  const auto left = [](const std::vector<PronyBranch>& branches, double time) {
-    double sum = 0.0;
-    for (const PronyBranch& branch : branches) sum += branch.modulus * std::exp(-time / branch.time);
-    return sum;
-  };
-  double least = std::numeric_limits<double>::infinity(), most = 0.0;
-  for (const auto* branches : {&law->shear, &law->bulk})
-    for (const PronyBranch& branch : *branches)
-      least = std::min(least, branch.time), most = std::max(most, branch.time);
-  constexpr double step = 1.3;
-  for (double time = 0.1 * least; time < 30.0 * most; time *= step) {
-    const double mu = relaxed.mu + left(law->shear, time), K = relaxed.bulk_modulus() + left(law->bulk, time);
-    consider({.lambda = K - 2.0 * mu / 3.0, .mu = mu});
-  }
-  return worst;
-}
-
-RelaxingGaps::RelaxingGaps(const Mesh& mesh, const CellField<const Material*>& materials, bool in_plane_stress)
+RelaxingGaps::RelaxingGaps(const Mesh& mesh, const CellField<const Material*>& materials, const FractureModel& model)
     : mesh_(mesh) {
   if (materials.size() == 0) return;
   kind_ = CellField<Index>(materials.size(), -1);
   for (Index c = 0; c < materials.size(); ++c) {
     const Material* material = materials[c];
-    if (material == nullptr || !gaps_relax(*material, in_plane_stress)) continue;
+    if (material == nullptr || !gaps_relax(*material, model)) continue;
     const auto known = std::ranges::find(kinds_, material, &Kind::material);
     kind_[c] = static_cast<Index>(known - kinds_.begin());
-    if (known == kinds_.end()) kinds_.push_back({.material = material, .law = material->relaxing()});
+    if (known != kinds_.end()) continue;
+    kinds_.push_back(
+        {.material = material, .law = material->relaxing(), .has_pressure = relaxes_with_pressure(*material)});
   }
   start_step(0.0);
 }
@@ -91,7 +79,7 @@ void RelaxingGaps::start_step(double duration) {
 std::size_t RelaxingGaps::size(Index cell) const {
   if (!has(cell)) return 0;
   const Kind& by = kind(cell);
-  return faces_from + mesh_.faces_of_cell(cell).size() * by.per_face();
+  return by.per_cell() + mesh_.faces_of_cell(cell).size() * by.per_face();
 }
 
 void RelaxingGaps::tell(Index cell, std::span<const double> numbers, HistoryStress& history) const {
@@ -99,10 +87,16 @@ void RelaxingGaps::tell(Index cell, std::span<const double> numbers, HistoryStre
   const std::size_t n_shear = by.law->shear.size(), n_bulk = by.law->bulk.size();
   history.sound[cell] = by.elasticity;
   history.relaxes[cell] = 1;
+  for (std::size_t i = 0; by.has_pressure && i < n_shear; ++i) {
+    const double modulus = by.law->shear[i].modulus, phi = by.shear[i].phi;
+    const double* left = &numbers[branches_from + 2 * i];
+    history.volumes[cell].by_gradient += modulus * (left[0] - phi * numbers[volumes_from]);
+    history.volumes[cell].by_flux += modulus * (left[1] - phi * numbers[volumes_from + 1]);
+  }
   const auto faces = mesh_.faces_of_cell(cell);
   const std::size_t first = mesh_.cell_face_offsets[cell];
   for (std::size_t k = 0; k < faces.size(); ++k) {
-    const std::size_t at = faces_from + k * by.per_face();
+    const std::size_t at = by.per_cell() + k * by.per_face();
     const Vector z = vector_at(numbers, at);
     GapStress& left = history.gaps[first + k];
     for (std::size_t i = 0; i < n_shear; ++i)
@@ -117,6 +111,7 @@ void RelaxingGaps::advance(Index cell, const CellMechanics& mechanics, std::span
                            std::span<double> to) const {
   const Kind& by = kind(cell);
   const std::size_t n_shear = by.law->shear.size(), n_bulk = by.law->bulk.size();
+  if (by.has_pressure) advance_volumes(by.shear, mechanics.volume_changes[cell], from, to);
   Energy sum;
   const auto add = [&](const Energy& of, double volume) {
     sum.locked += of.locked * volume;
@@ -126,7 +121,7 @@ void RelaxingGaps::advance(Index cell, const CellMechanics& mechanics, std::span
   const std::size_t first = mesh_.cell_face_offsets[cell];
   for (std::size_t k = 0; k < faces.size(); ++k) {
     const FaceGap& gap = mechanics.gaps[first + k];
-    const std::size_t at = faces_from + k * by.per_face();
+    const std::size_t at = by.per_cell() + k * by.per_face();
     const Vector n = mesh_.face_area[faces[k]].normalized(), z_n = vector_at(from, at), z = gap.strain;
     const auto dot = [&](const Vector& a, const Vector& b) {
       return a.dot(momentum_faces::scale(gap.by_shear, 1.0, n, b));

@@ -2,14 +2,19 @@
 // Memory of the gaps at the faces of relaxing cells (physics/materials/prony.h). A gap is the difference of the strain
 // there from that of the cell (CellMechanics::gaps). The law is linear, so that a gap z [-] is a strain that it bears
 // as any other. The traction of a branch is its modulus times r, r' + r/tau = z', and relaxes with it. A gap that met
-// the instantaneous moduli for ever would make a body that has relaxed too stiff. Materials of nu above 0.4 at any
-// time, and bodies in plane stress, have none of it (gaps_relax).
+// the instantaneous moduli for ever would make a body that has relaxed too stiff. Cells with a pressure remember their
+// volume changes likewise, by their gradient and by the flux through their faces. The moderate bulk modulus K_s, which
+// bears the difference (CellMechanics::volume_changes), relaxes as the shear modulus does. So every term of the
+// discrete body is that of the elastic one with relaxing moduli (correspondence principle): what is stable for all
+// elastic moduli is stable in time. With an elastic K_s, or with both remainders in the pressures, which are
+// extrapolated to the faces, rough modes grew. Bodies in plane stress have none of it (gaps_relax).
 //
 // Half the work of traction and gap is part of a cell's energy. Energies here are per volume of the cell [J/m^3].
 
 #include "mesh/mesh.h"
 #include "physics/materials/material.h"
 #include "physics/materials/prony.h"
+#include "solver/fracture/model/fracture_model.h"
 #include "solver/momentum/body/cell_mechanics.h"
 #include "solver/momentum/small_strain/history_stress.h"
 
@@ -18,20 +23,14 @@
 
 namespace pfdm {
 
-/// Whether the gaps of a material relax: it does so itself, not in plane stress (history_tractions.h), and nu is at
-/// most 0.4 at all times, also where the shear has relaxed and the bulk has not. Above that, modes of coarse meshes
-/// grew in time (85 tetrahedra, nu = 0.46: by 150 % of the force within 400 relaxation times; at 0.3 and 0.4 forces
-/// were those of the relaxed elastic body).
-bool gaps_relax(const Material& material, bool in_plane_stress);
-
-/// The moduli of a relaxing material when its Poisson's ratio is greatest, after a strain that is held: at once, at
-/// last or between, where the shear has relaxed and the bulk has not. The elasticity of other materials.
-IsotropicElasticity stiffest_against_volume(const Material& material);
+/// Whether the gaps of a material relax in a body: it does so itself, not in plane stress (history_tractions.h), and
+/// where its cells need a pressure (relaxes_with_pressure) the body has one.
+bool gaps_relax(const Material& material, const FractureModel& model);
 
 class RelaxingGaps {
  public:
   /// Gaps of cells with these materials; null: elastic; empty: all elastic.
-  RelaxingGaps(const Mesh& mesh, const CellField<const Material*>& materials, bool in_plane_stress);
+  RelaxingGaps(const Mesh& mesh, const CellField<const Material*>& materials, const FractureModel& model);
 
   bool any() const { return !kinds_.empty(); }
   bool has(Index cell) const { return any() && kind_[cell] >= 0; }
@@ -54,8 +53,11 @@ class RelaxingGaps {
   struct Kind {
     const Material* material;
     const PronyLaw* law;
+    bool has_pressure = false;
     std::vector<PronyDecay> shear{}, bulk{};
     IsotropicElasticity elasticity{};
+    // Energies; with a pressure also the two volume changes, and what is left of both in each shear branch.
+    std::size_t per_cell() const { return 2 + (has_pressure ? 2 + 2 * law->shear.size() : 0); }
     std::size_t per_face() const { return 3 + 3 * law->shear.size() + law->bulk.size(); }
   };
   const Kind& kind(Index cell) const { return kinds_[kind_[cell]]; }

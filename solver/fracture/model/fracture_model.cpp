@@ -1,5 +1,7 @@
 #include "solver/fracture/model/fracture_model.h"
 
+#include "solver/fracture/model/relaxing_volume.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -90,25 +92,29 @@ bool have_one_stiffness(const RegionModel& a, const RegionModel& b) {
   return a.stiffness && b.stiffness ? *a.stiffness == *b.stiffness : a.stiffness == b.stiffness;
 }
 
-// None of materials that relax (history_tractions.h).
-std::optional<IsotropicElasticity> volume_elasticity(const RegionModel& region) {
-  if (!region.material) return region.elasticity;
-  if (!region.material->has_linear_volume() || region.material->relaxing() != nullptr) return std::nullopt;
-  return region.elasticity;
+// None of relaxing materials that do without a pressure at all times.
+std::optional<VolumeLaw> volume_law(const RegionModel& region) {
+  const Material* material = region.material.get();
+  if (material == nullptr) return VolumeLaw{.elasticity = region.elasticity};
+  if (!material->has_linear_volume()) return std::nullopt;
+  if (material->relaxing() == nullptr) return VolumeLaw{.elasticity = region.elasticity};
+  if (!relaxes_with_pressure(*material)) return std::nullopt;
+  return VolumeLaw{.elasticity = poisson_range(*material).least, .relaxes = true};
 }
 
 // That of the region where Poisson's ratio does not vary within it.
-std::function<std::optional<IsotropicElasticity>(const Mesh&, Index)> volume_elasticities(const FractureModel& model) {
+std::function<std::optional<VolumeLaw>(const Mesh&, Index)> volume_laws(const FractureModel& model) {
   constexpr double differs = 1e-9;
-  std::vector<std::optional<IsotropicElasticity>> regions;
-  for (const RegionModel& region : model.regions) regions.push_back(volume_elasticity(region));
-  CellField<std::optional<IsotropicElasticity>> cells(model.cells.size());
-  for (Index c = 0; c < model.cells.size(); ++c) cells[c] = volume_elasticity(model.cells[c]);
+  std::vector<std::optional<VolumeLaw>> regions;
+  for (const RegionModel& region : model.regions) regions.push_back(volume_law(region));
+  CellField<std::optional<VolumeLaw>> cells(model.cells.size());
+  for (Index c = 0; c < model.cells.size(); ++c) cells[c] = volume_law(model.cells[c]);
   return [regions, cells](const Mesh& mesh, Index c) {
     const auto& region = regions[mesh.region[c]];
     if (cells.size() == 0) return region;
     const auto& own = cells[c];
-    const bool varies = !own || !region || std::abs(own->poisson_ratio() - region->poisson_ratio()) > differs;
+    const bool varies =
+        !own || !region || std::abs(own->elasticity.poisson_ratio() - region->elasticity.poisson_ratio()) > differs;
     return varies ? own : region;
   };
 }
@@ -131,7 +137,7 @@ ElasticBody elastic_body(const FractureModel& model) {
   body.motion = model.motion;
   body.loads = volume_loads(model);
   body.has_pressure = model.is_isotropic();
-  if (!model.is_finite_strain()) body.volume_elasticity = volume_elasticities(model);
+  if (!model.is_finite_strain()) body.volume_law = volume_laws(model);
   return body;
 }
 

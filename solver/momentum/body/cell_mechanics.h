@@ -17,6 +17,12 @@ struct FaceGap {
   double by_bulk = 0.0;            ///< over the bulk modulus besides
 };
 
+/// Volume change of a relaxing cell with a pressure: by its gradient and by the flux through its faces [-]; zero in
+/// other cells.
+struct VolumeChanges {
+  double by_gradient = 0.0, by_flux = 0.0;
+};
+
 /// Strain, stress and energy of the cells for a given displacement.
 struct CellMechanics {
   CellField<Tensor> strain;  ///< from the two-sided face displacements (Green-Gauss) [-]
@@ -45,7 +51,8 @@ struct CellMechanics {
   /// Strain by least squares, as used in the tractions of the faces, with the volume change that belongs to the
   /// pressure in cells that have one [-]; empty unless some material is linearised.
   CellField<Tensor> reconstructed_strain{};
-  std::vector<FaceGap> gaps{};  ///< as Mesh::cell_faces; empty without relaxing materials
+  CellField<VolumeChanges> volume_changes{};  ///< empty without relaxing materials
+  std::vector<FaceGap> gaps{};                ///< as Mesh::cell_faces; empty without relaxing materials
   /// Volume change J - 1 at finite strain, in nearly incompressible bodies [-]: in cells with a pressure by the volume
   /// of the moved cell, in others by the mean gradient. Else empty.
   CellField<double> volume_change{};

@@ -53,16 +53,22 @@ CellPressure::CellPressure(const Mesh& mesh, const Unknowns& unknowns)
                        .zero_if_deficient = true}) {
   if (!any()) return;
   const std::size_t n = mesh.n_cells();
-  modulus_ = CellField<double>(n, 0.0);
+  modulus_ = ratio_ = CellField<double>(n, 0.0);
+  for (std::size_t k = 0; k < unknowns.pressure_cells.size(); ++k) {
+    const IsotropicElasticity& by = unknowns.pressure_elasticity[k];
+    ratio_[unknowns.pressure_cells[k]] =
+        std::min(moderate_lambda, (by.lambda - least_share * by.bulk_modulus()) / by.mu);
+  }
   counts_ = CellField<double>(n, 1.0);
   warp_ = warps(mesh);
 }
 
-void CellPressure::take_over(CellField<IsotropicElasticity>& moduli, const CellField<double>& g) {
+void CellPressure::take_over(CellField<IsotropicElasticity>& moduli, const CellField<double>& g,
+                             const CellField<IsotropicElasticity>& undamaged) {
   for (std::size_t k = 0; k < unknowns_.pressure_cells.size(); ++k) {
     const Index c = unknowns_.pressure_cells[k];
-    const IsotropicElasticity& sound = unknowns_.pressure_elasticity[k];
-    const double kept = moderate_lambda * sound.mu / sound.lambda * moduli[c].lambda;
+    const IsotropicElasticity& sound = undamaged.size() > 0 ? undamaged[c] : unknowns_.pressure_elasticity[k];
+    const double kept = ratio_[c] * sound.mu / sound.lambda * moduli[c].lambda;
     modulus_[c] = moduli[c].lambda - kept;
     moduli[c].lambda = kept;
   }

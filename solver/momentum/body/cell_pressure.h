@@ -3,7 +3,8 @@
 // unknown of its own (a mixed form, as of Stokes' problem). The reason is that a reconstructed divergence times lambda
 // locks or oscillates as nu -> 1/2.
 //
-//   sigma = lambda_s tr(G) I + 2 mu sym(G) + q I,  lambda_s = 2.5 mu of the undamaged material,
+//   sigma = lambda_s tr(G) I + 2 mu sym(G) + q I,  lambda_s = 2.5 mu of the undamaged material (or, if that is less,
+//                                                   lambda - 0.2 K),
 //   V q / (lambda - lambda_s) = sum over faces of u_f.S,
 //
 // with u_f the two-sided displacement of the face, at which the tractions of both its cells, q included, agree
@@ -35,13 +36,18 @@ class CellPressure {
   /// lambda_s / mu. Measured on Goodier's sphere: 1.5 doubles the pole's error, 7 does so on polyhedra and takes up to
   /// twice the iterations.
   static constexpr double moderate_lambda = 2.5;
+  /// The share of K that is left to the pressure at least, as of relaxing materials that are not nearly incompressible
+  /// at all times.
+  static constexpr double least_share = 0.2;
 
   CellPressure(const Mesh& mesh, const Unknowns& unknowns);
 
   bool any() const { return !unknowns_.pressure_cells.empty(); }
   /// Reduces lambda to lambda_s in the moduli of the cells with a pressure, which carries the rest. In a damaged cell
-  /// both are the same fractions of lambda as in the undamaged one. g are the stiffness factors.
-  void take_over(CellField<IsotropicElasticity>& moduli, const CellField<double>& g);
+  /// both are the same fractions of lambda as in the undamaged one, whose moduli are `sound`, or, if it is empty, those
+  /// of the unknowns. g are the stiffness factors.
+  void take_over(CellField<IsotropicElasticity>& moduli, const CellField<double>& g,
+                 const CellField<IsotropicElasticity>& sound);
   /// The part of it that does not concern the moduli: at finite strain, whose laws know their own.
   void weigh(const CellField<double>& g);
   /// Pressures that are zero, for read().
@@ -51,6 +57,8 @@ class CellPressure {
 
   /// lambda - lambda_s [Pa]; zero in cells that have none.
   double modulus(Index cell) const { return any() ? modulus_[cell] : 0.0; }
+  /// lambda_s / mu of the undamaged material, in a cell that has a pressure.
+  double moderate_ratio(Index cell) const { return ratio_[cell]; }
   /// Flux through a face's triangles beyond u_f.S at the displacement gradient G [m^3].
   double flux_of_warp(Index face, const Tensor& G) const {
     return warp_.size() > 0 ? G.cwiseProduct(warp_[face]).sum() : 0.0;
@@ -63,6 +71,7 @@ class CellPressure {
   const Unknowns& unknowns_;
   Gradient gradient_;
   CellField<double> modulus_;  // [Pa]; empty, as all fields below, without pressures
+  CellField<double> ratio_;    // lambda_s / mu
   CellField<double> counts_;   // weight of its gradient: 1 among cells of equal damage, to 0
   FaceField<Tensor> warp_;     // sum over its triangles of S_t (x) (x_t - x_f) [m^3]; empty where all faces are plane
 };

@@ -122,11 +122,11 @@ void place_sector(const std::vector<Vector>& normals, Unknowns& unknowns) {
 void place_pressures(const Mesh& mesh, const ElasticBody& body, Unknowns& unknowns) {
   if (unknowns.plane_stress || !body.has_pressure) return;
   for (Index c = 0; c < mesh.n_cells(); ++c) {
-    const auto by =
-        body.volume_elasticity ? body.volume_elasticity(mesh, c) : std::optional(unknowns.sound[unknowns.zone[c]]);
-    if (!by || !is_nearly_incompressible(*by)) continue;
+    const auto by = body.volume_law ? body.volume_law(mesh, c)
+                                    : std::optional<VolumeLaw>({.elasticity = unknowns.sound[unknowns.zone[c]]});
+    if (!by || !(by->relaxes || is_nearly_incompressible(by->elasticity))) continue;
     unknowns.pressure_cells.push_back(c);
-    unknowns.pressure_elasticity.push_back(*by);
+    unknowns.pressure_elasticity.push_back(by->elasticity);
   }
 }
 

@@ -57,6 +57,12 @@ struct VolumeLoads {
   std::function<Mandel(const Mesh& mesh, Index cell, double t)> eigenstrain;  ///< [-]
 };
 
+/// The law by which a cell changes its volume.
+struct VolumeLaw {
+  IsotropicElasticity elasticity;  ///< undamaged; of relaxing materials when nu is least [Pa]
+  bool relaxes = false;            ///< the cell has a pressure whatever its Poisson's ratio
+};
+
 /// Body of the momentum balance.
 struct ElasticBody {
   std::vector<IsotropicElasticity> elasticity;  ///< of each region of the mesh, undamaged
@@ -68,9 +74,9 @@ struct ElasticBody {
   VolumeLoads loads{};
   /// Nearly incompressible cells have a pressure: not where the stress is not that of isotropic moduli.
   bool has_pressure = true;
-  /// Undamaged elasticity by which a cell is nearly incompressible: its own, or that to which it relaxes. None: the
-  /// cell has no pressure whatever it is. Empty: by the elasticity of its region.
-  std::function<std::optional<IsotropicElasticity>(const Mesh& mesh, Index cell)> volume_elasticity{};
+  /// Law by which a cell has a pressure, or none, as where it is nearly incompressible. No law: it has none whatever it
+  /// is. Empty: by the elasticity of its region.
+  std::function<std::optional<VolumeLaw>(const Mesh& mesh, Index cell)> volume_law{};
 };
 
 /// One boundary condition, found on its patch.
@@ -103,7 +109,7 @@ struct Unknowns {
   Index n_cells = 0;
   std::vector<SpinHold> spin_holds{};  ///< of cells in columns one cell wide; else empty
   std::vector<Index> pressure_cells;   ///< entry k is the cell of unknown n_nodes() + k
-  /// The undamaged elasticity by which each of them is nearly incompressible.
+  /// The undamaged elasticity of each of them, by VolumeLaw.
   std::vector<IsotropicElasticity> pressure_elasticity{};
 
   bool is_axisymmetric() const { return radial != Vector::Zero(); }

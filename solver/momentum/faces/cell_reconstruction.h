@@ -28,7 +28,10 @@ class CellReconstruction {
   void weigh_third_order(const CellField<double>& g);
   void leave_out_third_order();
   void weigh_pressures(const CellField<double>& g) { pressure_.weigh(g); }
-  void take_over(CellField<IsotropicElasticity>& moduli, const CellField<double>& g) { pressure_.take_over(moduli, g); }
+  void take_over(CellField<IsotropicElasticity>& moduli, const CellField<double>& g,
+                 const CellField<IsotropicElasticity>& sound) {
+    pressure_.take_over(moduli, g, sound);
+  }
 
   /// Gradients of one ring [-], with the hoop strain about an axis.
   void find_gradients(const std::vector<Vector>& u, CellField<Tensor>& gradients) const;

@@ -16,6 +16,12 @@ struct GapStress {
   double bulk = 0.0;              ///< [Pa]
 };
 
+/// Remainders of earlier volume changes of a relaxing cell that has a pressure, times shear moduli: of the change by
+/// the cell's gradient, and of that by the flux through its faces [Pa].
+struct VolumeStress {
+  double by_gradient = 0.0, by_flux = 0.0;
+};
+
 struct HistoryStress {
   /// Linearised stress of every cell, in place of that of its moduli. Empty: there is no history.
   CellField<LinearStress> stress{};
@@ -23,7 +29,8 @@ struct HistoryStress {
   /// empty without any.
   CellField<IsotropicElasticity> sound{};
   CellField<char> relaxes{};
-  std::vector<GapStress> gaps{};  ///< remainder of earlier gaps, by Mesh::cell_faces; empty without any
+  CellField<VolumeStress> volumes{};  ///< empty without any
+  std::vector<GapStress> gaps{};      ///< remainder of earlier gaps, by Mesh::cell_faces; empty without any
 
   bool any() const { return stress.size() > 0; }
 };

@@ -24,7 +24,7 @@ void HistoryTractions::set(const CellField<IsotropicElasticity>& moduli, const C
   set_moduli(moduli, g, history.sound);
   stress_ = std::move(history.stress);
   bear_gaps(history, g);
-  give_to_pressures();
+  give_to_pressures(history, g);
   parallel_for(stress_.size(), [&](Index c) {
     if (eigenstrain_.any()) stress_[c].initial -= stress_[c].C * eigenstrain_[c];
     if (!is_plane_stress()) return;
@@ -36,8 +36,8 @@ void HistoryTractions::set(const CellField<IsotropicElasticity>& moduli, const C
   set_coefficients();
 }
 
-// Gives to the pressures the stress K tr eps + p_0 less K_s tr eps.
-void HistoryTractions::give_to_pressures() {
+// Gives to the pressures the stress K tr eps + p_0 less K_s tr eps, and less what K_s had of earlier tr eps.
+void HistoryTractions::give_to_pressures(const HistoryStress& history, const CellField<double>& g) {
   if (!cells_.pressure().any()) return;
   pressure_ = CellField<double>(stress_.size(), 0.0);
   parallel_for(stress_.size(), [&](Index c) {
@@ -48,6 +48,10 @@ void HistoryTractions::give_to_pressures() {
     stress.initial -= p * mandel_identity();
     stress.C.topLeftCorner<3, 3>().array() -= modulus;
     pressure_[c] = p;
+    if (history.volumes.size() == 0) return;
+    const double by_shear = g[c] * moderate_bulk(c);
+    stress.initial += by_shear * history.volumes[c].by_gradient * mandel_identity();
+    pressure_[c] -= by_shear * history.volumes[c].by_flux;
   });
 }
 
@@ -56,6 +60,7 @@ HistoryTractions::GapStiffness HistoryTractions::gap_stiffness(Index c, const Hi
   const IsotropicElasticity& sound = history.sound[c];
   const double share = jump_modulus(c) / moduli()[c].constrained_modulus();
   if (is_plane_stress()) return {share * plane_stress(sound).constrained_modulus() / sound.mu, 0.0};
+  if (cells_.pressure().modulus(c) > 0.0) return {share * (2.0 + cells_.pressure().moderate_ratio(c)), 0.0};
   return {share * 4.0 / 3.0, share};
 }
 
@@ -119,15 +124,25 @@ void HistoryTractions::add_histories(const FaceMoves& moves, CellMechanics& resu
   const IsotropicSweep& sweep = of(moves.sweep);
   result.reconstructed_strain = CellField<Tensor>(stress_.size());
   if (gaps_.size() > 0) result.gaps.resize(skeleton_.mesh.cell_faces.size());
+  if (gaps_.size() > 0) result.volume_changes = CellField<VolumeChanges>(stress_.size());
   parallel_for(stress_.size(), [&](Index c) {
     Tensor& strain = result.reconstructed_strain[c];
     strain = symmetric_part(with_strain_across(c, sweep.gradients[c]));
     if (const double modulus = cells_.pressure().modulus(c); modulus > 0.0) {
       const double change = sweep.pressure.mean(c) / modulus + free_volume_change(c);
+      if (relaxes(c)) result.volume_changes[c] = {.by_gradient = strain.trace(), .by_flux = change};
       strain += (change - strain.trace()) / 3.0 * Tensor::Identity();
     }
-    if (gaps_.size() > 0 && gaps_[c].by_shear > 0.0) add_gaps(c, moves, result);
+    if (relaxes(c)) add_gaps(c, moves, result);
   });
+}
+
+// The strain that is borne, as a gap is, by what the gradient of a bonded side has beyond that of the cell.
+Vector HistoryTractions::bonded_strain(Index cell, const Vector& n, std::size_t turn, const Sweep& sweep) const {
+  if (bonded_at(turn) < 0) return Vector::Zero();
+  const Tensor beyond = gradient_at(cell, turn, sweep) - sweep.gradients[cell];
+  const Vector by_shear = IsotropicStress{moduli()}(cell, beyond, n) / moduli()[cell].mu;
+  return momentum_faces::scale(1.0 / gaps_[cell].by_shear, 1.0, n, by_shear);
 }
 
 void HistoryTractions::add_gaps(Index cell, const FaceMoves& moves, CellMechanics& result) const {
@@ -137,7 +152,8 @@ void HistoryTractions::add_gaps(Index cell, const FaceMoves& moves, CellMechanic
     const Vector d = mesh.face_centre[f] - mesh.cell_centre[cell], n = mesh.face_area[f].normalized();
     const Vector move = moves.seen_from(cell, f) - moves.u[cell];
     const double h = std::abs(d.dot(n));
-    result.gaps[at] = {.strain = gap(cell, d, turn, move, moves.u, moves.sweep) / h,
+    const Vector in_gap = gap(cell, d, turn, move, moves.u, moves.sweep) * stiffer_at(turn) / h;
+    result.gaps[at] = {.strain = in_gap + bonded_strain(cell, n, turn, moves.sweep),
                        .volume = mesh.face_area[f].norm() * h,
                        .by_shear = gaps_[cell].by_shear,
                        .by_bulk = gaps_[cell].by_bulk};

@@ -11,8 +11,10 @@
 //   modulus along a face's normal is not linear in mu, so that the parts of the branches do not add up.
 //
 // Nearly incompressible cells have a pressure (cell_pressure.h): of p = K tr eps + p_0, with K and p_0 of C and
-// sigma_0, it carries all but K_s tr eps, V (q - p_0)/(K - K_s) = sum u_f.S. Relaxing materials have none: with gaps
-// that relax beside pressures, rough modes of bonded discs grew in time. There are no faces of third order.
+// sigma_0, it carries all but K_s tr eps, V (q - p_0)/(K - K_s) = sum u_f.S. In relaxing cells K_s = lambda_s + 2 mu/3
+// relaxes as mu does. The mean stress is K tr eps + K_s (tr G - tr eps), tr eps being the volume change by the flux;
+// what is left of earlier tr G in K_s is an initial stress of the cell, what is left of tr eps one of its pressure.
+// There are no faces of third order.
 
 #include "solver/momentum/small_strain/history_stress.h"
 #include "solver/momentum/small_strain/isotropic_tractions.h"
@@ -40,9 +42,10 @@ class HistoryTractions final : public IsotropicTractions {
   double stress_across(Index cell, const Tensor& strain, const Sweep& sweep) const override;
   void add_histories(const FaceMoves& moves, CellMechanics& result) const override;
 
-  void give_to_pressures();
+  void give_to_pressures(const HistoryStress& history, const CellField<double>& g);
   void bear_gaps(const HistoryStress& history, const CellField<double>& g);
   void add_gaps(Index cell, const FaceMoves& moves, CellMechanics& result) const;
+  Vector bonded_strain(Index cell, const Vector& n, std::size_t turn, const Sweep& sweep) const;
   template <class Visit>
   void visit_sides(Index cell, const Visit& visit) const;
 
@@ -52,6 +55,9 @@ class HistoryTractions final : public IsotropicTractions {
     double by_shear = 0.0, by_bulk = 0.0;
   };
   GapStiffness gap_stiffness(Index cell, const HistoryStress& history) const;
+  bool relaxes(Index cell) const { return gaps_.size() > 0 && gaps_[cell].by_shear > 0.0; }
+  // K_s / mu of a cell with a pressure.
+  double moderate_bulk(Index cell) const { return cells_.pressure().moderate_ratio(cell) + 2.0 / 3.0; }
 
   CellField<LinearStress> stress_;       // condensed in plane stress; less the pressure
   CellField<double> pressure_;           // p_0 [Pa]; empty without pressures

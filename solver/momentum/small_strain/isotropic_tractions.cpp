@@ -48,7 +48,7 @@ void IsotropicTractions::set_moduli(const CellField<IsotropicElasticity>& moduli
   moduli_ = moduli;
   jump_.renew(moduli_, sound);
   condense();
-  cells_.take_over(moduli_, g);
+  cells_.take_over(moduli_, g, sound);
   find_initial_stress();
 }
 
@@ -217,7 +217,7 @@ double IsotropicTractions::energy_of_part(Index cell, const IsotropicElasticity&
   if (!(part.mu > 0.0)) return 0.0;
   const IsotropicSweep& s = of(moves.sweep);
   const auto at = [&](std::size_t turn, const Vector& d, const Vector& n, const Vector& move) -> Tensor {
-    const Tensor in_cell = varies_within_cells() ? gradient_at(cell, turn, s) : s.gradients[cell];
+    const Tensor in_cell = varies_at(turn) ? gradient_at(cell, turn, s) : s.gradients[cell];
     const double h = bounded_height(d, n) / stiffer_at(turn);
     return in_cell + gap(cell, d, turn, move, moves.u, s) * n.transpose() / h;
   };

@@ -105,8 +105,8 @@ class IsotropicTractions : public SmallTractions {
   template <class StressOf>
   Vector traction(Index cell, const Vector& n, const Vector& d, std::size_t turn, const IsotropicSweep& s,
                   const StressOf& stress_of) const {
-    Vector stress = varies_within_cells() ? stress_of.at_side(cell, s.gradients[cell], gradient_at(cell, turn, s), n)
-                                          : stress_of(cell, s.gradients[cell], n);
+    Vector stress = varies_at(turn) ? stress_of.at_side(cell, s.gradients[cell], gradient_at(cell, turn, s), n)
+                                    : stress_of(cell, s.gradients[cell], n);
     if (cells_.pressure().any()) stress += s.pressure.at(cell, d) * n;
     return stress;
   }
@@ -157,7 +157,10 @@ class IsotropicTractions : public SmallTractions {
   LinkValues values_of(std::size_t link) const;
   SideValues values_of_side(std::size_t side) const;
   void reconstruct(const std::vector<Vector>& u, IsotropicSweep& s) const;
-  bool varies_within_cells() const { return cells_.cubic().any() || cells_.layers().any() || bonded_.size() > 0; }
+  // Whether the gradient at side number `turn` is another one than the cell's.
+  bool varies_at(std::size_t turn) const {
+    return cells_.cubic().any() || cells_.layers().any() || bonded_at(turn) >= 0;
+  }
   // Gradient of the cell, or of the surface on which side number `turn` is bonded.
   const Tensor& mean_gradient_at(Index cell, std::size_t turn, const IsotropicSweep& s) const {
     const Index k = bonded_at(turn);

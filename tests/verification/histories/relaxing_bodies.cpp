@@ -2,16 +2,19 @@
 // elastic one of the relaxed moduli. Nearly incompressible bodies with a history: cells have a pressure by their own
 // law.
 
+#include "mesh/dual.h"
 #include "mesh/generators/cylinder_sector.h"
 #include "physics/materials/j2_plasticity.h"
 #include "physics/materials/prony.h"
 #include "solver/fracture/fracture_run.h"
+#include "tests/verification/finite.h"
 #include "tests/verification/support.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -54,6 +57,18 @@ RegionModel prony_region(double shear, double bulk) {
   return region;
 }
 
+struct Pad {
+  const char* cells;
+  Mesh mesh;
+};
+
+std::vector<Pad> pads() {
+  const auto flat = [](const Vector& s) -> Vector { return {s[0], s[1], s[2] / 3.0}; };
+  return {{.cells = "prisms", .mesh = extruded_triangles(6, {0.0, 1.0 / 12.0, 1.0 / 6.0, 0.25, 1.0 / 3.0})},
+          {.cells = "tetrahedra", .mesh = mapped_box({5, 5, 3}, flat, BoxCells::tetrahedra)},
+          {.cells = "polyhedra", .mesh = barycentric_dual(mapped_box({5, 5, 3}, flat, BoxCells::tetrahedra))}};
+}
+
 RegionModel elastic_region(const IsotropicElasticity& elasticity) {
   RegionModel region;
   region.elasticity = elasticity;
@@ -71,9 +86,12 @@ Pulled pulled(const Mesh& mesh, const StepReport& report) {
           .account = left_over({}, report.energy) / report.energy.external_work};
 }
 
+constexpr StaggeredSettings closely{.energy_tolerance = 1e-9, .equilibrium_tolerance = 1e-10};
+
 /// In one step of this duration [s].
-Pulled pull_at_once(const Mesh& mesh, const RegionModel& region, double duration) {
-  FractureRun run(mesh, disc_model(region, [](double t) { return t; }), tight,
+Pulled pull_at_once(const Mesh& mesh, const RegionModel& region, double duration,
+                    const StaggeredSettings& settings = tight) {
+  FractureRun run(mesh, disc_model(region, [](double t) { return t; }), settings,
                   {.initial_increment = 1.0, .maximum_increment = 1.0, .duration = duration, .stops = {}});
   Pulled result;
   run_to_end(run, [&](const FractureState&, const StepReport& report) {
@@ -102,6 +120,129 @@ TEST(RelaxingBodies, AreElasticWhereTheyHaveRelaxedAndWhereTheyHaveNot) {
     EXPECT_NEAR(slow, soft, 1e-9 * soft);
     EXPECT_NEAR(fast, stiff, 1e-9 * stiff);
   }
+}
+
+// Pulled at once and held, in steps of at most half a relaxation time: the shear modulus falls to a 21st, and of nu =
+// 0.46 the bulk modulus by a third.
+TEST(RelaxingBodies, NearlyIncompressibleDiscsRelaxToTheElasticOnes) {
+  constexpr double branch = 20.0, ramp = 1e-7, duration = 400.0;
+  for (const double poisson : {0.46, 0.4997})
+    for (const Index fine : {1, 2}) {
+      const Mesh mesh = disc(20 * fine, 4 * fine);
+      const IsotropicElasticity stiff = from_young_poisson(2.0 * (1.0 + branch) * mu * (1.0 + poisson), poisson);
+      const double of_bulk = poisson < 0.47 ? stiff.bulk_modulus() / 3.0 : 0.0;
+      const IsotropicElasticity soft{.lambda = stiff.bulk_modulus() - of_bulk - 2.0 * mu / 3.0, .mu = mu};
+      PronyLaw law{.relaxed = soft, .shear = {{branch * mu, 1.0}}};
+      if (of_bulk > 0.0) law.bulk = {{of_bulk, 3.0}};
+      RegionModel region;
+      region.material = make_prony(law);
+      region.elasticity = region.material->elasticity();
+      FractureRun run(mesh, disc_model(region, [](double t) { return std::min(t / ramp, 1.0); }), closely,
+                      {.initial_increment = ramp,
+                       .minimum_increment = 1e-12,
+                       .maximum_increment = 0.5 / duration,
+                       .duration = duration,
+                       .stops = {},
+                       .is_proportional = false});
+      Pulled first, last;
+      double account = 0.0;
+      run_to_end(run, [&](const FractureState&, const StepReport& report) {
+        if (report.step == 0) return;
+        last = pulled(mesh, report);
+        if (report.step == 1) first = last;
+        account = std::max(account, std::abs(last.account));
+      });
+      const double due = pull_at_once(mesh, elastic_region(soft), 1.0).modulus;
+      report_row(fmt::format("held disc, nu {}, {} cells", poisson, mesh.n_cells()),
+                 {{"at once", first.modulus}, {"held", last.modulus}, {"relaxed", due}, {"account", account}});
+      EXPECT_NEAR(last.modulus, due, 2e-4 * due);
+      EXPECT_LE(account, fine == 1 ? 0.035 : 0.009);
+    }
+}
+
+// Square pads, six times as wide as thick, of other cells. The prisms' surfaces are bonded as those of the hexahedra.
+TEST(RelaxingBodies, NearlyIncompressiblePadsOfAnyCellsRelaxToTheElasticOnes) {
+  constexpr double branch = 20.0, ramp = 1e-7, duration = 200.0;
+  for (const double poisson : {0.46, 0.4997})
+    for (const Pad& pad : pads()) {
+      const IsotropicElasticity stiff = from_young_poisson(2.0 * (1.0 + branch) * mu * (1.0 + poisson), poisson);
+      const IsotropicElasticity soft{.lambda = stiff.bulk_modulus() - 2.0 * mu / 3.0, .mu = mu};
+      const auto pull = [&](const std::shared_ptr<const Material>& material) {
+        FractureModel model =
+            elastic_model({material ? material->elasticity() : soft},
+                          {symmetry_on("xmin"), symmetry_on("ymin"),
+                           displacement_on("zmin", [](const Vector&) -> Vector { return Vector::Zero(); }),
+                           moved("zmax", {true, true, true}, [](const Vector&, double t) -> Vector {
+                             return 1e-3 / 3.0 * std::min(t / ramp, 1.0) * Vector::UnitZ();
+                           })});
+        model.regions[0].material = material;
+        FractureRun run(pad.mesh, model, closely,
+                        {.initial_increment = material ? ramp : 1.0,
+                         .minimum_increment = 1e-12,
+                         .maximum_increment = material ? 1.0 / duration : 1.0,
+                         .duration = duration,
+                         .stops = {},
+                         .is_proportional = false});
+        double force = 0.0;
+        run_to_end(run, [&](const FractureState&, const StepReport& report) {
+          force = report.reaction[pad.mesh.patch_index("zmax")].z();
+        });
+        return force / (1e-3 * mu);
+      };
+      const double held = pull(make_prony({.relaxed = soft, .shear = {{branch * mu, 1.0}}})), due = pull(nullptr);
+      report_row(fmt::format("held pad of {} {}, nu {}", pad.mesh.n_cells(), pad.cells, poisson),
+                 {{"held", held}, {"relaxed", due}});
+      EXPECT_NEAR(held, due, 1e-3 * due);
+    }
+}
+
+// By the correspondence principle the force under a held rise is the inverse Laplace transform of the elastic one,
+// mu~(s)/s times the elastic modulus at K/mu~(s). What the latter differs by from the relaxed one is transformed by
+// Stehfest's method with eight values (Comm. ACM 13 (1970) 47).
+TEST(RelaxingBodies, ANearlyIncompressibleDiscRelaxesByTheCorrespondencePrinciple) {
+  constexpr double branch = 20.0, poisson = 0.4997, ramp = 1e-7;
+  const Mesh mesh = disc(20, 4);
+  const double K = from_young_poisson(2.0 * (1.0 + branch) * mu * (1.0 + poisson), poisson).bulk_modulus();
+  const auto elastic = [&](double modulus) {  // mean stress over strain and mu; of the same operator
+    RegionModel region;
+    region.material =
+        make_prony({.relaxed = {.lambda = K - 2.0 * modulus / 3.0, .mu = modulus}, .shear = {{1e-12 * mu, 1.0}}});
+    region.elasticity = region.material->elasticity();
+    return pull_at_once(mesh, region, 1e13, closely).modulus;
+  };
+  const double relaxed = elastic(mu);
+  const auto due = [&](double time) {
+    constexpr std::array<double, 8> weights{-1.0 / 3.0,     145.0 / 3.0, -906.0,         16394.0 / 3.0,
+                                            -43130.0 / 3.0, 18730.0,     -35840.0 / 3.0, 8960.0 / 3.0};
+    double sum = 0.0;
+    for (std::size_t k = 0; k < weights.size(); ++k) {
+      const double s = static_cast<double>(k + 1) * std::numbers::ln2 / time;
+      const double modulus = 1.0 + branch * s / (s + 1.0);
+      sum += weights[k] * (elastic(mu * modulus) - modulus * relaxed) / s;
+    }
+    return (1.0 + branch * std::exp(-time)) * relaxed + sum * std::numbers::ln2 / time;
+  };
+  const std::array times{0.5, 1.0, 2.0, 4.0, 8.0};
+  std::size_t next = 0;
+  RegionModel region;
+  region.material = make_prony({.relaxed = {.lambda = K - 2.0 * mu / 3.0, .mu = mu}, .shear = {{branch * mu, 1.0}}});
+  region.elasticity = region.material->elasticity();
+  constexpr double duration = 8.0;
+  FractureRun run(mesh, disc_model(region, [](double t) { return std::min(t / ramp, 1.0); }), closely,
+                  {.initial_increment = ramp,
+                   .minimum_increment = 1e-12,
+                   .maximum_increment = 0.05 / duration,
+                   .duration = duration,
+                   .stops = {0.5 / duration, 1.0 / duration, 2.0 / duration, 4.0 / duration},
+                   .is_proportional = false});
+  run_to_end(run, [&](const FractureState&, const StepReport& report) {
+    if (next == times.size() || std::abs(duration * report.load - times[next]) > 1e-9) return;
+    const double found = pulled(mesh, report).modulus, by_principle = due(times[next]);
+    report_row(fmt::format("disc after {} relaxation times", times[next++]),
+               {{"held", found}, {"by the correspondence principle", by_principle}});
+    EXPECT_NEAR(found, by_principle, 0.002 * by_principle);
+  });
+  EXPECT_EQ(next, times.size());
 }
 
 // Plane strain, pressure inside: u(r) = p a^2/(b^2 - a^2) (r/(2 (K + mu/3)) + b^2/(2 mu r)), each modulus by its
