@@ -22,8 +22,9 @@ bool InterfaceLaw::is_all_rise(const InterfaceStrength& at) const {
   const auto too_soft = [&](double strength, double toughness) {
     return strength * strength >= 2.0 * at.stiffness * toughness;
   };
-  return law->has_rise() && (too_soft(at.strength, at.toughness) ||
-                             (depends_on_mode() && too_soft(at.shear_strength, at.shear_toughness)));
+  return !own_law && law->has_rise() &&
+         (too_soft(at.strength, at.toughness) ||
+          (depends_on_mode() && too_soft(at.shear_strength, at.shear_toughness)));
 }
 
 double InterfaceLaw::initial_stiffness(const InterfaceStrength& at) const {
@@ -43,9 +44,13 @@ double InterfaceLaw::steepest_fall(const InterfaceStrength& at) const {
   constexpr int samples = 400;
   constexpr double end = 10.0;  // toughness over strength
   const ModeMixture opening{.strength = at.strength, .toughness = at.toughness};
+  const auto slope = [&](double x) {
+    return own_law ? own_law->respond(at, Vector::UnitX(), x * Vector::UnitX(), {}, 0.0).tangent(0, 0)
+                   : point(at, opening, x).slope;
+  };
   double steepest = 0.0;
   for (int i = 1; i <= samples; ++i)
-    steepest = std::max(steepest, -point(at, opening, end * i / samples * at.toughness / at.strength).slope);
+    steepest = std::max(steepest, -slope(end * i / samples * at.toughness / at.strength));
   return steepest;
 }
 
@@ -157,6 +162,7 @@ void InterfaceLaw::rub(const InterfaceStrength& at, const Opening& o, const Inte
 
 InterfaceResponse InterfaceLaw::respond(const InterfaceStrength& at, const Vector& n, const Vector& separation,
                                         const InterfaceHistory& before, double duration) const {
+  if (own_law) return own_law->respond(at, n, separation, before, duration);
   const Opening o(*this, n, separation);
   InterfaceResponse response{.traction = {}, .tangent = {}, .secant = {}, .history = before};
   response.history.opening = o.normal;

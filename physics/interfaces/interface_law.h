@@ -37,6 +37,7 @@
 #include "physics/interfaces/traction_separation.h"
 #include "physics/tensor.h"
 
+#include <memory>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -81,7 +82,7 @@ struct InterfaceHistory {
   double rubbed = 0.0;                          ///< by friction [J/m^2]
   double viscous = 0.0;                         ///< by the rate of opening, and by branches [J/m^2]
   double overstress = 0.0;                      ///< r of the last step [-]
-  BranchTractions branch = relaxed_branches();  ///< q of the branches [Pa]
+  BranchTractions branch = relaxed_branches();  ///< q of the branches [Pa]; or numbers of one's own law
   Vector slip = Vector::Zero();                 ///< of the friction [m]
   double opening = 0.0;                         ///< delta_n now [m]
   Vector shear = Vector::Zero();                ///< delta_s now [m]
@@ -97,6 +98,21 @@ struct InterfaceResponse {
   Vector dissipation_slope = Vector::Zero();  ///< of what decohesion dissipates, by the separation [Pa]
 };
 
+/// A law of one's own in place of those above, at small strain. A step that takes no time to the separation of the
+/// history gives the traction again.
+class OwnInterfaceLaw {
+ public:
+  OwnInterfaceLaw() = default;
+  OwnInterfaceLaw(const OwnInterfaceLaw&) = delete;
+  OwnInterfaceLaw& operator=(const OwnInterfaceLaw&) = delete;
+  virtual ~OwnInterfaceLaw() = default;
+
+  virtual bool depends_on_rate() const { return false; }
+  /// As InterfaceLaw::respond(), compression included. Its history is `branch`, with zeros at first, and `dissipated`.
+  virtual InterfaceResponse respond(const InterfaceStrength& at, const Vector& n, const Vector& separation,
+                                    const InterfaceHistory& before, double duration) const = 0;
+};
+
 struct InterfaceLaw {
   const TractionSeparationLaw* law = nullptr;
   std::vector<double> shape{};  ///< of the law, less the share of a straight rise
@@ -105,7 +121,8 @@ struct InterfaceLaw {
   double exponent = 1.0;     ///< eta of these
   double friction = 0.0;     ///< mu
   InterfaceRate rate{};
-  std::vector<InterfaceBranch> branches{};  ///< up to most_interface_branches
+  std::vector<InterfaceBranch> branches{};           ///< up to most_interface_branches
+  std::shared_ptr<const OwnInterfaceLaw> own_law{};  ///< takes the place of all above, of contact as well
 
   /// Response at the separation [m] of the side that the unit normal n enters from the other one, after `before` and a
   /// step of this duration [s]. 0: no time passes, r and q stay what they were.
@@ -118,14 +135,14 @@ struct InterfaceLaw {
   /// Steepest fall of the traction in opening [Pa/m], positive.
   double steepest_fall(const InterfaceStrength& at) const;
   /// Fraction of the toughness that has been dissipated by decohesion, 0 to 1: over what has been and what is still to
-  /// be in the mode of this separation [m].
+  /// be in the mode of this separation [m]. Of one's own law over the toughness in opening.
   double damage(const InterfaceStrength& at, const Vector& n, const Vector& separation,
                 const InterfaceHistory& history) const;
   /// Whether a straight rise of this stiffness, in opening or in shear, takes all the toughness or more.
   bool is_all_rise(const InterfaceStrength& at) const;
   bool depends_on_mode() const { return mixed_mode->at != nullptr; }
   /// Whether steps have to have a duration.
-  bool depends_on_rate() const { return rate.any() || !branches.empty(); }
+  bool depends_on_rate() const { return own_law ? own_law->depends_on_rate() : rate.any() || !branches.empty(); }
   /// Whether an opened interface pulls along its separation, in any mode.
   bool pulls_along_separation() const;
 

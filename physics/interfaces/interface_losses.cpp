@@ -83,6 +83,7 @@ double InterfaceLaw::left_in_potential(const InterfaceStrength& at, const Openin
 double InterfaceLaw::damage(const InterfaceStrength& at, const Vector& n, const Vector& separation,
                             const InterfaceHistory& history) const {
   if (!(history.dissipated > 0.0)) return 0.0;
+  if (own_law) return std::min(1.0, history.dissipated / at.toughness);
   const Opening o(*this, n, separation);
   const double left = mixed_mode->is_potential ? left_in_potential(at, o, history) : left_to_dissipate(at, o, history);
   return history.dissipated / (history.dissipated + left);
