@@ -2,6 +2,7 @@
 
 #include "cases/program/fracture/outcome/mean_curve.h"
 #include "cases/program/homogenization/homogenization_keys.h"
+#include "cases/program/studies/sweep/sweep_case.h"
 #include "solver/homogenization/mean_path.h"
 
 #include <fmt/format.h>
@@ -111,7 +112,7 @@ bool has_mean_path(const ConfigTable& root) {
   return root.has("homogenization") && root.table("homogenization").has("path");
 }
 
-FractureCase read_debonding_case(const ConfigTable& root, const std::filesystem::path& case_directory) {
+FractureCase read_debonding_case(const ConfigTable& root, const std::filesystem::path& case_directory, MeshOf mesh) {
   root.with_keys(debonding_keys());
   const ConfigTable table = root.table("homogenization");
   const auto boundary = table.find("boundary");
@@ -124,17 +125,24 @@ FractureCase read_debonding_case(const ConfigTable& root, const std::filesystem:
     throw root.at("initial").error("damage needs [fracture]: without it only interfaces break");
   BoxCase box;
   const MeanPath path = read_path(table.at("path"), box.component);
-  box.motion = [path, &loading](const Mesh& mesh, const FractureModel& model) {
-    return motion_of(path, loading, mesh, model);
+  box.motion = [path, &loading](const Mesh& on, const FractureModel& model) {
+    return motion_of(path, loading, on, model);
   };
   box.words = fmt::format("{} point{} of mean strain and stress, {}", path.points.size(),
                           path.points.size() == 1 ? "" : "s", loading.name);
   FractureCase fracture = read_body(root, case_directory, true);
   fit_loading(root, path.points.size(), fracture.loading);
   fracture.box = std::move(box);
-  read_box_output(root, fracture);
+  read_box_output(root, fracture, mesh);
   add_corners(fracture.loading);
   return fracture;
+}
+
+FractureCase read_whole_debonding_case(const CaseFile& file, MeshOf mesh) {
+  FractureCase box = read_debonding_case(file.config.root(), file.directory, mesh);
+  read_sweep(file);
+  file.config.reject_unknown_keys();
+  return box;
 }
 
 }  // namespace pfdm

@@ -3,6 +3,7 @@
 // materials break, as a fracture case without patches that are loaded.
 
 #include "cases/program/fracture/case/fracture_case.h"
+#include "cases/program/input/case_files/case_file.h"
 
 namespace pfdm {
 
@@ -10,6 +11,10 @@ namespace pfdm {
 bool has_mean_path(const ConfigTable& root);
 
 /// `root` is the whole case file. Throws InputError for all that can be told without the mesh.
-FractureCase read_debonding_case(const ConfigTable& root, const std::filesystem::path& case_directory);
+FractureCase read_debonding_case(const ConfigTable& root, const std::filesystem::path& case_directory,
+                                 MeshOf mesh = MeshOf::the_case);
+
+/// One with all that its file says. Throws InputError for whatever is wrong with it, unknown keys included.
+FractureCase read_whole_debonding_case(const CaseFile& file, MeshOf mesh);
 
 }  // namespace pfdm

@@ -254,8 +254,8 @@ FractureCase read_body(const ConfigTable& root, const std::filesystem::path& cas
   return fracture;
 }
 
-void read_box_output(const ConfigTable& root, FractureCase& fracture) {
-  check_names(fracture, fracture.mesh.regions, {});
+void read_box_output(const ConfigTable& root, FractureCase& fracture, MeshOf mesh) {
+  if (mesh == MeshOf::the_case) check_names(fracture, fracture.mesh.regions, {});
   fracture.output.curve.component = fracture.box->component[0];
   if (root.has("output")) read_frames_of(root.table("output"), fracture);
   read_columns(root, fracture);

@@ -78,7 +78,7 @@ FractureCase read_fracture_case(const ConfigTable& root, const std::filesystem::
 FractureCase read_body(const ConfigTable& root, const std::filesystem::path& case_directory, bool may_be_elastic);
 
 /// The parts of [output] that need no patch, and [cohesive]; with `box` and the loading as they are to be.
-void read_box_output(const ConfigTable& root, FractureCase& fracture);
+void read_box_output(const ConfigTable& root, FractureCase& fracture, MeshOf mesh);
 
 /// The model with its materials and initial damage on the mesh. Throws InputError, with file and line, for patches and
 /// regions that the mesh does not have, for regions without a material and for parameters that are out of range in a

@@ -14,9 +14,15 @@
 namespace pfdm {
 namespace {
 
-FractureCase read(const std::filesystem::path& where, const std::vector<std::string>& values,
-                  MeshOf mesh = MeshOf::the_case) {
-  const CaseFile file = with_overrides(open_case(where), values);
+std::unique_ptr<FractureRun> run_on(const FractureCase& fracture, const Mesh& mesh, const ModelChange& change) {
+  FractureModel model = model_on(fracture, mesh);
+  if (change) change(mesh, model);
+  return std::make_unique<FractureRun>(mesh, std::move(model), fracture.staggered, fracture.loading);
+}
+
+}  // namespace
+
+FractureCase read_whole_fracture_case(const CaseFile& file, MeshOf mesh) {
   const ConfigValue kind = file.config.root().at("kind");
   if (kind.string() != "fracture") throw kind.error(fmt::format("\"{}\" is not \"fracture\"", kind.string()));
   FractureCase fracture = read_fracture_case(file.config.root(), file.directory, mesh);
@@ -27,21 +33,17 @@ FractureCase read(const std::filesystem::path& where, const std::vector<std::str
   return fracture;
 }
 
-std::unique_ptr<FractureRun> run_on(const FractureCase& fracture, const Mesh& mesh) {
-  return std::make_unique<FractureRun>(mesh, model_on(fracture, mesh), fracture.staggered, fracture.loading);
-}
-
-}  // namespace
-
 OpenedCase::OpenedCase(const std::filesystem::path& where, const std::vector<std::string>& values)
-    : settings_(read(where, values)),
-      mesh_(std::make_shared<const Mesh>(settings_.mesh.make())),
-      run_(run_on(settings_, *mesh_)) {}
+    : OpenedCase(read_whole_fracture_case(with_overrides(open_case(where), values)), std::nullopt) {}
 
 OpenedCase::OpenedCase(const std::filesystem::path& where, const std::vector<std::string>& values, Mesh mesh)
-    : settings_(read(where, values, MeshOf::the_caller)),
-      mesh_(std::make_shared<const Mesh>(std::move(mesh))),
-      run_(run_on(settings_, *mesh_)) {}
+    : OpenedCase(read_whole_fracture_case(with_overrides(open_case(where), values), MeshOf::the_caller),
+                 std::move(mesh)) {}
+
+OpenedCase::OpenedCase(FractureCase settings, std::optional<Mesh> mesh, const ModelChange& change)
+    : settings_(std::move(settings)),
+      mesh_(std::make_shared<const Mesh>(mesh ? std::move(*mesh) : settings_.mesh.make())),
+      run_(run_on(settings_, *mesh_, change)) {}
 
 Vector OpenedCase::reaction(const StepReport& report, std::string_view patch) const {
   return report.reaction[mesh_->patch_index(std::string(patch))];

@@ -9,15 +9,25 @@
 //   }
 
 #include "cases/program/fracture/case/fracture_case.h"
+#include "cases/program/input/case_files/case_file.h"
 #include "solver/fracture/fracture_run.h"
 
 #include <filesystem>
+#include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace pfdm {
+
+/// A fracture case with all that its file says. Throws InputError for whatever is wrong with it, unknown keys included,
+/// and for cases of other kinds.
+FractureCase read_whole_fracture_case(const CaseFile& file, MeshOf mesh = MeshOf::the_case);
+
+/// What a program changes in the model of a case before it is checked: laws of its own.
+using ModelChange = std::function<void(const Mesh& mesh, FractureModel& model)>;
 
 class OpenedCase {
  public:
@@ -29,6 +39,9 @@ class OpenedCase {
   /// The same on a mesh that was made elsewhere, whose regions and patches the case names; what [mesh] says is read and
   /// not made.
   OpenedCase(const std::filesystem::path& where, const std::vector<std::string>& values, Mesh mesh);
+
+  /// The same of a case that has been read, also of a box. Without `mesh` it makes its own.
+  OpenedCase(FractureCase settings, std::optional<Mesh> mesh, const ModelChange& change = {});
 
   const std::string& title() const { return settings_.title; }
   /// As the file has them: loading, boundary conditions, output.
