@@ -1,5 +1,6 @@
 """Tests of meshes of arrays for fracture runs in process: what they take, and what they refuse."""
 
+import dataclasses
 import unittest
 
 from in_process import rows_of
@@ -73,6 +74,77 @@ class Meshes(Folder):
         self.assertEqual(run.patches, ["patch_7", "patch_8", "walls"])
         run = pfdm.FractureRun(bar(), self.mesh_with_ends([0, 0]))
         self.assertEqual(run.patches[:2], ["xmin", "xmax"])
+
+    def polyhedral_bar(self):
+        """Its hexahedra by their faces."""
+        points, cells, numbers = bar_arrays()
+        sides = [[0, 1, 2, 3], [4, 5, 6, 7], [0, 1, 5, 4], [1, 2, 6, 5], [2, 3, 7, 6], [3, 0, 4, 7]]
+        return points, [[cell[side] for side in sides] for cell in cells], numbers
+
+    def test_of_polyhedra_are_those_of_their_faces(self):
+        points, cells, numbers = self.polyhedral_bar()
+        half = len(cells) // 2
+        mesh = pfdm.Mesh.of_blocks(points, {"polyhedron": cells[:half], "polyhedron8": cells[half:]},
+                                   {"polyhedron": numbers[:half], "polyhedron8": numbers[half:]},
+                                   regions={1: "bar", 2: "weak"})
+        self.assertEqual(set(mesh.types), {42})
+        self.assertEqual(len(mesh.connectivity), 8 * len(cells))
+        run, theirs = pfdm.FractureRun(bar(), mesh), pfdm.FractureRun(bar(), self.mesh())
+        numpy.testing.assert_allclose(run.cell_volumes, theirs.cell_volumes, rtol=1e-12)
+        a, b = run.step(), theirs.step()
+        self.assertAlmostEqual(a["force_x_N"] / b["force_x_N"], 1.0, delta=1e-9)
+
+    def test_of_polyhedra_are_those_of_the_file_that_has_them(self):
+        case = pfdm.Case(shipped / "glass_bead_quick", {"mesh.cells": "polyhedra", "mesh.size_far": "400 um",
+                                                        "mesh.layers.count": 1, "mesh.particles[0].surface_size.ell": 1.5,
+                                                        "fracture.length": "100 um"})
+        grid = case.run(self.folder / "r", max_steps=1).mesh
+        self.assertEqual(set(grid.types), {42})
+        text = (shipped / "glass_bead_quick/case.toml").read_text()
+        rest = text[text.index("[materials.sylgard]") : text.index("[experiment]")]
+        names = "".join(f'\n"{number}" = "{name}"' for name, number in grid.regions().items())
+        (self.folder / "case.toml").write_text(
+            f'kind = "fracture"\ntitle = "Of a file"\n[mesh]\ngenerator = "vtk"\nfile = "r/mesh.vtu"\nlength_unit = "m"\n'
+            f'region_array = "material"\n[mesh.region_names]{names}\n{rest}')
+        of_file = pfdm.Case(self.folder, {"fracture.length": "100 um"})
+        mesh = pfdm.Mesh(grid.points, grid.connectivity, grid.offsets, grid.types, grid.cell_data["material"],
+                         {number: name for name, number in grid.regions().items()}, faces=grid.faces)
+        ours, theirs = pfdm.FractureRun(of_file, mesh), pfdm.FractureRun(of_file)
+        self.assertEqual(ours.cell_volumes.tobytes(), theirs.cell_volumes.tobytes())
+        self.assertEqual([ours.step() for _ in range(3)], [theirs.step() for _ in range(3)])
+        self.assertGreater(ours.damage.max(), 0.0)
+        self.assertAlmostEqual(ours.cell_volumes.sum(), grid.cell_data["volume"].sum(), delta=1e-20)
+
+    def test_of_polyhedra_that_do_not_close_are_refused(self):
+        points, cells, numbers = self.polyhedral_bar()
+        good = pfdm.Mesh.of_blocks(points, {"polyhedron": cells})
+
+        def changed(**values):
+            return dataclasses.replace(good, **values)
+
+        def with_number(at, number):
+            faces = good.faces.copy()
+            faces[at] = number
+            return changed(faces=faces)
+
+        for mesh, said in [(changed(faces=None), "need the array faces"),
+                           (changed(faces=good.faces[:-1]), "faces ends within those of cell 41"),
+                           (changed(faces=[*good.faces, 4]), "those of its polyhedra .* end after 1302"),
+                           (changed(faces=good.faces.reshape(2, -1)), r"faces has the shape \(2, 651\)"),
+                           (changed(faces=good.faces + 0.5), "faces is of the type float64"),
+                           (with_number(0, 3), r"faces\[0\] is 3, the number of faces of cell 0"),
+                           (with_number(0, 10**12), r"faces\[0\] is 1000000000000"),
+                           (with_number(1, -1), r"faces\[1\] is -1, the number of points of a face of cell 0"),
+                           (with_number(2, 1000), r"faces\[2\] is 1000; there are 132 points"),
+                           (with_number(2, 131), "the faces of cell 0 do not have the points"),
+                           (with_number(2, good.faces[3]), "polyhedron 0")]:
+            with self.assertRaisesRegex(pfdm.InputError, said):
+                pfdm.FractureRun(bar(), mesh)
+        for block, said in [([cells[0], [[0, 1]]], r"face 0 of cell 1 of the block \"polyhedron\" has the shape \(2,\)"),
+                            ([[[0, 1, 2.5]]], "face 0 of cell 0 .* is of the type float64"),
+                            (cells, "have the shape")]:
+            with self.assertRaisesRegex(pfdm.InputError, said):
+                pfdm.Mesh.of_blocks(points, {"polyhedron": block}, {"polyhedron": numbers[:-1]})
 
     def test_of_arrays_that_do_not_fit_are_refused(self):
         for change, said in [({"points": numpy.zeros((3, 2))}, r"\(3, 2\)"),

@@ -18,6 +18,8 @@ struct MeshArrays {
   ArrayOf<int> types;                             ///< (n_cells,), VTK's numbers
   std::optional<ArrayOf<Index>> numbers;          ///< (n_cells,): of a cell's region, of a face's patch
   std::map<Index, std::string> regions, patches;  ///< names of the numbers; else region_<number>, patch_<number>
+  /// Of each polyhedron in turn n_faces, then of each of its faces n_points and the points.
+  std::optional<ArrayOf<std::int64_t>> faces;
 };
 
 /// Throws InputError for arrays that do not fit together, and for what is wrong with the mesh, as of a file.

@@ -43,14 +43,15 @@ py::array view(std::shared_ptr<Owner> owner, const CellField<Index>* field) {
 }
 
 using MeshTuple = std::tuple<ArrayOf<double>, ArrayOf<std::int64_t>, ArrayOf<std::int64_t>, ArrayOf<int>,
-                             std::optional<ArrayOf<Index>>, std::map<Index, std::string>, std::map<Index, std::string>>;
+                             std::optional<ArrayOf<Index>>, std::map<Index, std::string>, std::map<Index, std::string>,
+                             std::optional<ArrayOf<std::int64_t>>>;
 
 std::unique_ptr<SteppedRun> open(const std::filesystem::path& where, const std::vector<std::string>& values,
                                  const std::optional<MeshTuple>& given) {
   std::optional<MeshArrays> arrays;
   if (given) {
-    const auto& [points, connectivity, offsets, types, numbers, regions, patches] = *given;
-    arrays = MeshArrays{points, connectivity, offsets, types, numbers, regions, patches};
+    const auto& [points, connectivity, offsets, types, numbers, regions, patches, faces] = *given;
+    arrays = MeshArrays{points, connectivity, offsets, types, numbers, regions, patches, faces};
   }
   const py::gil_scoped_release others_run;
   std::optional<Mesh> mesh;
