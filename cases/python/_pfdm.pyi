@@ -93,7 +93,8 @@ class MeshArrays(TypedDict):
 class FractureRun:
     """Of pfdm.FractureRun."""
 
-    def __init__(self, where: str | PathLike[str], values: list[str], mesh: tuple[Any, ...] | None) -> None: ...
+    def __init__(self, where: str | PathLike[str], values: list[str], mesh: tuple[Any, ...] | None,
+                 interfaces: dict[str, Any], materials: dict[str, Any]) -> None: ...
     @property
     def title(self) -> str: ...
     @property

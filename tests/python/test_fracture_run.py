@@ -168,6 +168,91 @@ class Steps(Folder):
         self.assertLess(run.load, 1.0)
 
 
+def box(folder, **values):
+    """Eight stiff cells in the middle of a soft box, whose interface opens along a path of two points."""
+    (folder / "case.toml").write_text("""
+kind = "homogenize"
+title = "A block in a box"
+
+[mesh]
+generator = "box_hexes"
+x = [{ length = "4 mm", cells = 4 }]
+y = [{ length = "4 mm", cells = 4 }]
+z = [{ length = "4 mm", cells = 4 }]
+region = "matrix"
+
+[[mesh.regions]]
+name = "block"
+lower = ["1 mm", "1 mm", "1 mm"]
+upper = ["3 mm", "3 mm", "3 mm"]
+
+[materials.stiff]
+regions = ["block"]
+young_modulus = "70 GPa"
+poisson_ratio = 0.2
+
+[materials.soft]
+regions = ["matrix"]
+young_modulus = "1 GPa"
+poisson_ratio = 0.4
+
+[[interface]]
+name = "bond"
+between = ["block", "matrix"]
+law = "linear"
+strength = "2 MPa"
+toughness = "10 J/m^2"
+stiffness = "1e13 Pa/m"
+
+[homogenization]
+path = [{ strain_zz = "1 %" }, { strain_zz = "0.5 %" }]
+
+[loading]
+initial_increment = 0.2
+maximum_increment = 0.2
+""")
+    return pfdm.Case(folder, values)
+
+
+class Boxes(Folder):
+    def test_step_as_those_of_the_program_to_the_last_bit(self):
+        case = box(self.folder)
+        theirs = case.run(self.folder / "r", threads=1)
+        due = theirs.table("stress_strain.csv").to_dict("records")
+        run = pfdm.FractureRun(case)
+        rows = rows_of(run)
+        self.assertEqual(rows, due)
+        self.assertEqual(len(rows), 11)
+        self.assertGreater(rows[-1]["debonded_area_bond_m2"], 0.0)
+        self.assertLess(rows[-1]["stress_zz_Pa"], rows[5]["stress_zz_Pa"])
+        self.assertEqual(run.displacement.tobytes(), theirs.frames[-1].displacement.tobytes())
+
+    def test_take_laws_meshes_and_states(self):
+        class Glued(pfdm.OwnInterfaceLaw):
+            def respond(self, separation, history, duration, strength, toughness):
+                return pfdm.InterfaceResponse(1e13 * separation, 1e13 * numpy.eye(3), stored=5e12 * separation @ separation)
+
+        case = box(self.folder)
+        plain = pfdm.FractureRun(case)
+        mesh = pfdm.Mesh(plain.points, plain.connectivity, plain.offsets, numpy.full(64, 12),
+                         numpy.isin(numpy.arange(64), plain.cells_of("block")).astype(int), {0: "matrix", 1: "block"})
+        run = pfdm.FractureRun(case, mesh, interfaces={"bond": Glued()})
+        first = run.step()
+        self.assertAlmostEqual(first["strain_zz"], 0.002, delta=1e-12)
+        state, second = run.state, run.step()
+        self.assertAlmostEqual(second["stress_zz_Pa"] / first["stress_zz_Pa"], 2.0, delta=1e-4)
+        self.assertEqual(second["debonded_area_bond_m2"], 0.0)
+        run.restore(state)
+        self.assertEqual(run.step(), second)
+
+    def test_of_wrong_cases_say_file_line_and_key(self):
+        with self.assertRaises(pfdm.InputError) as caught:
+            pfdm.FractureRun(box(self.folder, **{"homogenization.path[0].strain_zz": "2"}))
+        self.assertEqual(caught.exception.file, str(self.folder / "case.toml"))
+        with self.assertRaisesRegex(pfdm.InputError, "linear"):
+            pfdm.FractureRun(pfdm.Case(shipped / "composite_stiffness"))
+
+
 class Arrays(unittest.TestCase):
     def test_are_views_that_outlive_the_run(self):
         run = pfdm.FractureRun(bar())

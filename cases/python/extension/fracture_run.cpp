@@ -3,6 +3,7 @@
 #include "cases/python/extension/array_mesh.h"
 #include "cases/python/extension/arrays.h"
 #include "cases/python/extension/module.h"
+#include "cases/python/extension/script_law.h"
 #include "cases/python/extension/stepped_run.h"
 #include "postproc/fields/frame.h"
 
@@ -47,16 +48,21 @@ using MeshTuple = std::tuple<ArrayOf<double>, ArrayOf<std::int64_t>, ArrayOf<std
                              std::optional<ArrayOf<std::int64_t>>>;
 
 std::unique_ptr<SteppedRun> open(const std::filesystem::path& where, const std::vector<std::string>& values,
-                                 const std::optional<MeshTuple>& given) {
+                                 const std::optional<MeshTuple>& given, std::map<std::string, py::object> interfaces,
+                                 std::map<std::string, py::object> materials) {
   std::optional<MeshArrays> arrays;
   if (given) {
     const auto& [points, connectivity, offsets, types, numbers, regions, patches, faces] = *given;
     arrays = MeshArrays{points, connectivity, offsets, types, numbers, regions, patches, faces};
   }
+  const ScriptLaws laws{std::move(interfaces), std::move(materials)};
+  SteppedRun::Laws put{.change = {}, .words = words_of(laws)};
+  if (!put.words.empty())
+    put.change = [&laws](const Mesh& mesh, FractureModel& model) { put_into_model(laws, mesh, model); };
   const py::gil_scoped_release others_run;
   std::optional<Mesh> mesh;
   if (arrays) mesh = mesh_of(*arrays);
-  return std::make_unique<SteppedRun>(where, values, std::move(mesh));
+  return std::make_unique<SteppedRun>(where, values, std::move(mesh), put);
 }
 
 void step(SteppedRun& run, const py::object& on_iteration) {
@@ -111,8 +117,6 @@ py::dict mesh(const SteppedRun& run) {
   return result;
 }
 
-py::tuple row(const SteppedRun& run) { return py::make_tuple(curve_header(), curve_line(run.row())); }
-
 std::vector<double> components(const Vector& v) { return {v.x(), v.y(), v.z()}; }
 
 }  // namespace
@@ -122,7 +126,8 @@ void define_fracture_run(py::module_& module) {
       .def_property_readonly("step", [](const RunState& s) { return s.state.step; })
       .def_property_readonly("load", [](const RunState& s) { return s.state.load; });
   py::class_<SteppedRun>(module, "FractureRun")
-      .def(py::init(&open), py::arg("where"), py::arg("values"), py::arg("mesh"))
+      .def(py::init(&open), py::arg("where"), py::arg("values"), py::arg("mesh"), py::arg("interfaces"),
+           py::arg("materials"))
       .def_property_readonly("title", &SteppedRun::title)
       .def_property_readonly("is_complete", &SteppedRun::is_complete)
       .def_property_readonly("remarks", [](const SteppedRun& run) { return run.state()->report.remarks; })
@@ -132,7 +137,7 @@ void define_fracture_run(py::module_& module) {
           "restore", [](SteppedRun& run, std::shared_ptr<RunState> state) { run.restore(std::move(state)); },
           py::arg("state"))
       .def("step", &step, py::arg("on_iteration"))
-      .def("row", &row)
+      .def("row", &SteppedRun::row)
       .def("fields", &fields)
       .def("mesh", &mesh)
       .def(

@@ -3,6 +3,7 @@
 
 #include "cases/python/extension/module.h"
 
+#include "cases/python/extension/script_law.h"
 #include "physics/error.h"
 #include "postproc/curves/instruction_set.h"
 #include "solver/parallel.h"
@@ -12,6 +13,7 @@
 
 #include <chrono>
 #include <exception>
+#include <stdexcept>
 #include <string>
 #include <utility>
 
@@ -36,6 +38,12 @@ void translate(std::exception_ptr thrown) {
   }
 }
 
+/// A law that is asked within a loop would wait for that loop's end.
+void set_threads_of_loops(int n) {
+  if (is_within_script_law()) throw std::runtime_error("set_threads() cannot be called within a law");
+  set_threads(n);
+}
+
 }  // namespace
 
 void look_for_signals() {
@@ -58,7 +66,7 @@ PYBIND11_MODULE(_pfdm, module) {
   module.doc() = "Pieces of pfdm in process. Use the package pfdm, which documents them.";
   py::register_local_exception_translator(pfdm::translate);
   pfdm::keep_threads_out_of_forks();
-  module.def("set_threads", &pfdm::set_threads, py::arg("n"), py::call_guard<py::gil_scoped_release>());
+  module.def("set_threads", &pfdm::set_threads_of_loops, py::arg("n"), py::call_guard<py::gil_scoped_release>());
   module.def("n_threads", &pfdm::n_threads);
   pfdm::define_mass_material(module);
   pfdm::define_endochronic(module);

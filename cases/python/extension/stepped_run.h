@@ -3,7 +3,6 @@
 // it stays valid, without copies, and to go back is to name it.
 
 #include "cases/program/fracture/case/opened_case.h"
-#include "postproc/curves/curve_csv.h"
 #include "solver/fracture/fracture_run.h"
 
 #include <atomic>
@@ -13,6 +12,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace pfdm {
@@ -21,14 +21,23 @@ namespace pfdm {
 struct RunState {
   FractureState state;
   StepReport report;
+  std::string laws;  ///< what tells runs with other laws in Python apart
 };
 
 class SteppedRun {
  public:
   using State = std::shared_ptr<const RunState>;
 
-  /// Reads the case and makes its mesh, or takes the one that is given. Throws InputError.
-  SteppedRun(const std::filesystem::path& where, const std::vector<std::string>& values, std::optional<Mesh> mesh);
+  /// Laws in Python that take the place of the case's.
+  struct Laws {
+    ModelChange change;
+    std::string words;
+  };
+
+  /// Reads the case, one of kind "fracture" or a box with a path of mean strain, and makes its mesh, or takes the one
+  /// that is given. Throws InputError.
+  SteppedRun(const std::filesystem::path& where, const std::vector<std::string>& values, std::optional<Mesh> mesh,
+             const Laws& laws);
 
   /// One accepted step; after an exception, of `watch` as well, the run is where it was.
   void step(const IterationWatch& watch);
@@ -40,7 +49,8 @@ class SteppedRun {
   bool is_complete() const { return case_->run().is_complete(state()->state); }
   /// The fields of the present state, which are computed when they are first asked for.
   std::shared_ptr<const OutputFields> fields();
-  CurveRow row() const;
+  /// Header and line of the present state in force_displacement.csv, of a box in stress_strain.csv.
+  std::pair<std::string, std::string> row() const;
   Vector reaction(std::string_view patch) const { return case_->reaction(state()->report, patch); }
   Vector displacement(std::string_view patch) const { return case_->displacement(state()->report, patch); }
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
@@ -13,6 +13,7 @@ from .case import Case
 from .errors import Error
 from .mesh import Mesh
 from .native import extension, place_of
+from .own_laws import OwnInterfaceLaw, OwnMaterial, laws_by_name
 from .program import Step
 
 if TYPE_CHECKING:
@@ -52,15 +53,21 @@ class FractureRun:
         case: the case, with its values.
         mesh: takes the place of what [mesh] makes; its regions and patches are those that the case names. Cells and
             points are put in another order: see cell_centres.
+        interfaces: laws written in Python by the names of interfaces, in place of those of the case.
+        materials: the same of materials by the names of regions. Such runs are slow: a law is asked for each of its faces
+            or cells in each iteration, which takes 5 us and what Python needs for the law.
 
     Raises:
-        InputError: what is wrong with the case or the mesh, with file, line and key.
+        InputError: what is wrong with the case, the mesh or a law, with file, line and key.
         Error: there is no compiled extension.
     """
 
-    def __init__(self, case: Case, mesh: Mesh | None = None) -> None:
+    def __init__(self, case: Case, mesh: Mesh | None = None, *, interfaces: Mapping[str, OwnInterfaceLaw] | None = None,
+                 materials: Mapping[str, OwnMaterial] | None = None) -> None:
         parts = None if mesh is None else mesh.parts()
-        self._opened: _pfdm.FractureRun | None = extension().FractureRun(*place_of(case), parts)
+        self._opened: _pfdm.FractureRun | None = extension().FractureRun(
+            *place_of(case), parts, laws_by_name("interfaces", interfaces, OwnInterfaceLaw),
+            laws_by_name("materials", materials, OwnMaterial))
         self._names: list[str] = self._run.row()[0].split(",")
 
     @property
@@ -81,6 +88,7 @@ class FractureRun:
             ComputationError: the smallest increment does not converge.
             KeyboardInterrupt: after Ctrl-C, once the iteration is done.
             RuntimeError: another thread steps this run.
+            What a law in Python raises.
         After any of them the run is where it was before the step.
         """
         self._run.step(on_iteration)
@@ -119,7 +127,7 @@ class FractureRun:
     def restore(self, state: State) -> None:
         """Goes back, or on, to a state of this run or of another one of the same case.
 
-        Raises InputError if the state belongs to another mesh or model.
+        Raises InputError if the state belongs to another mesh or model, or to other laws in Python.
         """
         self._run.restore(state._state)
 

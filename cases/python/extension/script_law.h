@@ -1,0 +1,88 @@
+#pragma once
+// Laws that are written in Python: objects of the package's OwnInterfaceLaw and OwnMaterial, asked by whichever thread
+// computes. What their respond() raises ends the step.
+
+#include "cases/python/extension/arrays.h"
+#include "mesh/mesh.h"
+#include "solver/fracture/model/fracture_model.h"
+
+#include <map>
+#include <span>
+#include <string>
+
+namespace pfdm {
+
+/// By the names of the interfaces, and of the regions, whose laws they take the place of.
+struct ScriptLaws {
+  std::map<std::string, py::object> interfaces, materials;
+};
+
+/// Puts the laws into the model of a case. Throws InputError for names that there are not, and for what a law in
+/// Python cannot be combined with.
+void put_into_model(const ScriptLaws& laws, const Mesh& mesh, FractureModel& model);
+
+/// What tells runs of different laws apart: places and types.
+std::string words_of(const ScriptLaws& laws);
+
+/// Whether this thread is within respond() of such a law.
+bool is_within_script_law();
+
+std::shared_ptr<const OwnInterfaceLaw> make_script_interface(const std::string& place, const py::object& law);
+std::shared_ptr<const Material> make_script_material(const std::string& place, const py::object& law,
+                                                     const IsotropicElasticity& elasticity);
+
+/// The object, and what it has said of itself.
+class ScriptLaw {
+ public:
+  /// `place`, as in "interfaces[\"glue\"]", is for messages. Throws InputError unless its history has at most so many
+  /// numbers.
+  ScriptLaw(std::string place, const py::object& law, std::size_t most_numbers);
+  ScriptLaw(const ScriptLaw&) = delete;
+  ScriptLaw& operator=(const ScriptLaw&) = delete;
+  ~ScriptLaw();
+
+  std::size_t history_size() const { return history_size_; }
+  bool depends_on_rate() const { return depends_on_rate_; }
+
+  /// The interpreter's lock, for as long as a law is asked.
+  class Turn {
+   public:
+    Turn();
+    ~Turn();
+    Turn(const Turn&) = delete;
+    Turn& operator=(const Turn&) = delete;
+
+   private:
+    py::gil_scoped_acquire lock_;
+  };
+
+  /// What respond() has returned: arrays, of which the third is the new history, then two numbers.
+  class Answer {
+   public:
+    /// Element by element in rows, into an array of this shape. Throws InputError for another shape.
+    void read(std::size_t entry, const char* name, std::vector<py::ssize_t> shape, double* to) const;
+    double number(std::size_t entry, const char* name) const;
+
+   private:
+    friend class ScriptLaw;
+    Answer(const ScriptLaw& law, py::tuple entries) : law_(law), entries_(std::move(entries)) {}
+    const ScriptLaw& law_;
+    py::tuple entries_;
+  };
+
+  /// Within a Turn. Throws what respond() raises, and InputError for an answer that is not one of five entries.
+  template <class... Arguments>
+  Answer respond(const Arguments&... arguments) const {
+    return answer(respond_(arguments...));
+  }
+
+ private:
+  Answer answer(const py::object& returned) const;
+
+  std::string place_;
+  py::object respond_;
+  std::size_t history_size_ = 0;
+  bool depends_on_rate_ = false;
+};
+
+}  // namespace pfdm
