@@ -112,8 +112,8 @@ set(rooms
      cases/program/studies cases/program/fracture"
     "cases/program/homogenization: physics mesh solver/momentum solver/fracture solver/homogenization postproc/files
      postproc/fields postproc/curves postproc/page cases/program/input cases/program/session cases/program/studies cases/program/fracture"
-    "cases/python/extension: physics mesh mesh/files solver solver/fracture solver/point solver/vibration postproc/curves
-     postproc/fields postproc/point cases/program/input cases/program/point cases/program/vibration cases/program/fracture
+    "cases/python/extension: physics mesh mesh/files solver solver/fracture solver/homogenization solver/point solver/vibration
+     postproc/files postproc/curves postproc/fields postproc/point cases/program/input cases/program/point cases/program/vibration cases/program/fracture
      cases/program/homogenization"
     "cases/program: physics solver postproc/files postproc/curves postproc/exports
      cases/program/input cases/program/reference cases/program/session cases/program/studies cases/program/point cases/program/viscoelastic

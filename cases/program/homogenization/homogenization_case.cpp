@@ -3,6 +3,7 @@
 #include "cases/program/fracture/body/body_keys.h"
 #include "cases/program/homogenization/homogenization_keys.h"
 #include "cases/program/input/config/key_member.h"
+#include "cases/program/studies/sweep/sweep_case.h"
 
 #include <algorithm>
 #include <cmath>
@@ -40,7 +41,8 @@ HomogenizationSettings read_settings(const ConfigTable& root) {
 
 }  // namespace
 
-HomogenizationCase read_homogenization_case(const ConfigTable& root, const std::filesystem::path& case_directory) {
+HomogenizationCase read_homogenization_case(const ConfigTable& root, const std::filesystem::path& case_directory,
+                                            MeshOf mesh) {
   root.with_keys(composite_keys());
   HomogenizationCase homogenization;
   homogenization.title = root.line("title");
@@ -49,10 +51,17 @@ HomogenizationCase read_homogenization_case(const ConfigTable& root, const std::
   defaults.elastic_keys = composite_material_keys;
   homogenization.materials = read_materials(root, defaults);
   homogenization.by_name = read_other_keys(root);
-  if (!homogenization.mesh.regions.empty())
+  if (mesh == MeshOf::the_case && !homogenization.mesh.regions.empty())
     for (const RegionMaterial& material : homogenization.materials.by_region)
       material.where.one_of(homogenization.mesh.regions, "region of the mesh");
   homogenization.settings = read_settings(root);
+  return homogenization;
+}
+
+HomogenizationCase read_whole_homogenization_case(const CaseFile& file, MeshOf mesh) {
+  HomogenizationCase homogenization = read_homogenization_case(file.config.root(), file.directory, mesh);
+  read_sweep(file);
+  file.config.reject_unknown_keys();
   return homogenization;
 }
 

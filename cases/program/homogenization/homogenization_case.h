@@ -3,6 +3,8 @@
 
 #include "cases/program/fracture/body/materials.h"
 #include "cases/program/fracture/body/mesh/mesh_recipe.h"
+#include "cases/program/fracture/case/fracture_case.h"
+#include "cases/program/input/case_files/case_file.h"
 #include "physics/elasticity/effective_stiffness.h"
 #include "solver/homogenization/homogenization.h"
 
@@ -30,7 +32,11 @@ struct HomogenizationCase {
 };
 
 /// `root` is the whole case file. Throws InputError for all that can be told without the mesh.
-HomogenizationCase read_homogenization_case(const ConfigTable& root, const std::filesystem::path& case_directory);
+HomogenizationCase read_homogenization_case(const ConfigTable& root, const std::filesystem::path& case_directory,
+                                            MeshOf mesh = MeshOf::the_case);
+
+/// One with all that its file says. Throws InputError for whatever is wrong with it, unknown keys included.
+HomogenizationCase read_whole_homogenization_case(const CaseFile& file, MeshOf mesh);
 
 /// The elasticity on the mesh. Throws InputError, with file and line, for a region without a material, one that the
 /// mesh does not have, and parameters that are out of range in a cell.

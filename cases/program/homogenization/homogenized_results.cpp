@@ -122,13 +122,10 @@ std::map<std::string, double> homogenized_figures(const HomogenizationCase& homo
   return figures;
 }
 
-void write_homogenized(const std::filesystem::path& folder, const HomogenizationCase& homogenization, const Mesh& mesh,
-                       const Homogenized& result, const EffectiveMaterial& material, const ResultOrigin& origin) {
+Json homogenized_json(const HomogenizationCase& homogenization, const Mesh& mesh, const Homogenized& result,
+                      const EffectiveMaterial& material) {
   const IsotropicElasticity& closest = material.isotropic;
-  Json json = {{"case", origin.case_name},
-               {"case_hash", origin.case_hash},
-               {"version", origin.version},
-               {"boundary", homogenization.settings.loading->name},
+  Json json = {{"boundary", homogenization.settings.loading->name},
                {"cells", mesh.n_cells()},
                {"volume_m3", result.volume},
                {"notation", "Voigt: stress = stiffness times strain, shear strains of engineering (2 eps_yz ...)"},
@@ -156,6 +153,13 @@ void write_homogenized(const std::filesystem::path& folder, const Homogenization
   if (material.hashin_shtrikman)
     json["bounds"] = {{"hashin_shtrikman", to_json(*material.hashin_shtrikman)},
                       {"reuss_voigt", to_json(*material.reuss_voigt)}};
+  return json;
+}
+
+void write_homogenized(const std::filesystem::path& folder, const HomogenizationCase& homogenization, const Mesh& mesh,
+                       const Homogenized& result, const EffectiveMaterial& material, const ResultOrigin& origin) {
+  Json json = {{"case", origin.case_name}, {"case_hash", origin.case_hash}, {"version", origin.version}};
+  json.update(homogenized_json(homogenization, mesh, result, material));
   write_file(folder / homogenized_file, json_text(json));
   write_csv(folder / load_cases_file, load_cases(result));
 }

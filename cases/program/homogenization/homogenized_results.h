@@ -39,6 +39,10 @@ struct ResultOrigin {
   std::string case_name, case_hash, version;
 };
 
+/// What homogenized.json says besides its origin.
+nlohmann::ordered_json homogenized_json(const HomogenizationCase& homogenization, const Mesh& mesh,
+                                        const Homogenized& result, const EffectiveMaterial& material);
+
 void write_homogenized(const std::filesystem::path& folder, const HomogenizationCase& homogenization, const Mesh& mesh,
                        const Homogenized& result, const EffectiveMaterial& material, const ResultOrigin& origin);
 

@@ -131,6 +131,12 @@ void name_patches(const MeshArrays& arrays, MeshFile& file) {
 
 }  // namespace
 
+std::optional<MeshArrays> arrays_of(const std::optional<MeshTuple>& given) {
+  if (!given) return std::nullopt;
+  const auto& [points, connectivity, offsets, types, numbers, regions, patches, faces] = *given;
+  return MeshArrays{points, connectivity, offsets, types, numbers, regions, patches, faces};
+}
+
 Mesh mesh_of(const MeshArrays& arrays) {
   MeshFile file;
   add_points(arrays.points, file);

@@ -8,6 +8,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <tuple>
 
 namespace pfdm {
 
@@ -22,7 +23,14 @@ struct MeshArrays {
   std::optional<ArrayOf<std::int64_t>> faces;
 };
 
-/// Throws InputError for arrays that do not fit together, and for what is wrong with the mesh, as of a file.
+/// As Python hands them over: the members in their order.
+using MeshTuple = std::tuple<ArrayOf<double>, ArrayOf<std::int64_t>, ArrayOf<std::int64_t>, ArrayOf<int>,
+                             std::optional<ArrayOf<Index>>, std::map<Index, std::string>, std::map<Index, std::string>,
+                             std::optional<ArrayOf<std::int64_t>>>;
+std::optional<MeshArrays> arrays_of(const std::optional<MeshTuple>& given);
+
+/// Needs no lock of the interpreter. Throws InputError for arrays that do not fit together, and for what is wrong with
+/// the mesh, as of a file.
 Mesh mesh_of(const MeshArrays& arrays);
 
 }  // namespace pfdm

@@ -15,7 +15,6 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <tuple>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -43,18 +42,10 @@ py::array view(std::shared_ptr<Owner> owner, const CellField<Index>* field) {
   return view_of(std::move(owner), field->data(), {field->size()});
 }
 
-using MeshTuple = std::tuple<ArrayOf<double>, ArrayOf<std::int64_t>, ArrayOf<std::int64_t>, ArrayOf<int>,
-                             std::optional<ArrayOf<Index>>, std::map<Index, std::string>, std::map<Index, std::string>,
-                             std::optional<ArrayOf<std::int64_t>>>;
-
 std::unique_ptr<SteppedRun> open(const std::filesystem::path& where, const std::vector<std::string>& values,
                                  const std::optional<MeshTuple>& given, std::map<std::string, py::object> interfaces,
                                  std::map<std::string, py::object> materials) {
-  std::optional<MeshArrays> arrays;
-  if (given) {
-    const auto& [points, connectivity, offsets, types, numbers, regions, patches, faces] = *given;
-    arrays = MeshArrays{points, connectivity, offsets, types, numbers, regions, patches, faces};
-  }
+  const std::optional<MeshArrays> arrays = arrays_of(given);
   const ScriptLaws laws{std::move(interfaces), std::move(materials)};
   SteppedRun::Laws put{.change = {}, .words = words_of(laws)};
   if (!put.words.empty())

@@ -71,5 +71,6 @@ PYBIND11_MODULE(_pfdm, module) {
   pfdm::define_mass_material(module);
   pfdm::define_endochronic(module);
   pfdm::define_fracture_run(module);
+  pfdm::define_homogenization(module);
   pfdm::define_interface_law(module);
 }

@@ -8,6 +8,7 @@ namespace pfdm {
 void define_mass_material(pybind11::module_& module);
 void define_endochronic(pybind11::module_& module);
 void define_fracture_run(pybind11::module_& module);
+void define_homogenization(pybind11::module_& module);
 void define_interface_law(pybind11::module_& module);
 
 /// Raises what a signal has asked for, KeyboardInterrupt after Ctrl-C, some twenty times a second. For loops that do

@@ -12,14 +12,15 @@ command line, several runs go side by side, and neither Ctrl-C nor a failing run
 are texts with units, as in case.toml ("300 J/m^2"), or quantities of pint; what comes out is in SI units.
 
 With the compiled extension pieces of it run in this process, on arrays of NumPy: fracture runs step by step
-(FractureRun), also with laws written in Python (OwnInterfaceLaw, OwnMaterial), and laws as functions: MassMaterial,
-Endochronic, InterfaceLaw, softening.
+(FractureRun), also with laws written in Python (OwnInterfaceLaw, OwnMaterial), composites (homogenize), and laws as
+functions: MassMaterial, Endochronic, InterfaceLaw, softening.
 """
 
 from .case import Case, Check
 from .endochronic import Endochronic
 from .errors import ComputationError, Error, InputError, MissingResult
 from .fracture_run import FractureRun, State
+from .homogenization import homogenize
 from .interface_law import InterfaceLaw, softening, softening_laws
 from .mass_material import MassMaterial
 from .mesh import Mesh
@@ -31,5 +32,5 @@ from .vtu import Grid
 
 __all__ = ["Case", "Check", "ComputationError", "Endochronic", "Error", "Fit", "FractureRun", "Frame", "Grid", "InputError",
            "InterfaceLaw", "InterfaceResponse", "MassMaterial", "MaterialResponse", "Mesh", "MissingResult",
-           "OwnInterfaceLaw", "OwnMaterial", "Results", "State", "open", "set_threads", "softening", "softening_laws",
-           "sweep"]
+           "OwnInterfaceLaw", "OwnMaterial", "Results", "State", "homogenize", "open", "set_threads", "softening",
+           "softening_laws", "sweep"]

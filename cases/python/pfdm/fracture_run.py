@@ -38,7 +38,8 @@ class State:
 
 
 class FractureRun:
-    """A case of kind "fracture" in this process: its mesh, its model and its load steps. It writes nothing.
+    """A case of kind "fracture", or "homogenize" with a path, in this process: its mesh, its model and its load steps. It
+    writes nothing.
 
         with pfdm.FractureRun(pfdm.Case("cases/bar_at2")) as run:
             for row in run:
@@ -106,7 +107,8 @@ class FractureRun:
 
     @property
     def row(self) -> Step:
-        """The present state as a row of force_displacement.csv: "step", "load", "displacement_m", "force_x_N" ..."""
+        """The present state as a row of force_displacement.csv: "step", "load", "displacement_m", "force_x_N" ...; of a
+        box as one of stress_strain.csv: "step", "load", "strain_xx", "stress_xx_Pa" ..."""
         return dict(zip(self._names, map(float, self._run.row()[1].split(",")), strict=True))
 
     @property
