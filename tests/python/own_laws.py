@@ -135,9 +135,9 @@ class NortonCreep(pfdm.OwnMaterial):
                                      dissipated=equivalent * creep)
 
 
-def block(folder, *, x, material, right="", more="", loading="", cells=(4, 2, 2)):
+def block(folder, *, x, material, right="", toughness=None, more="", loading="", cells=(4, 2, 2)):
     """A block of 4 mm x 2 mm x 2 mm whose right half is the region "right", of the same material or another one; xmax moves
-    by `x`, an expression [mm] of t."""
+    by `x`, an expression [mm] of t. With a toughness the left half is damaged, with a length of 2 mm."""
     (folder / "case.toml").write_text(f"""
 kind = "fracture"
 title = "A block that is pulled"
@@ -156,7 +156,7 @@ upper = ["5 mm", "3 mm", "3 mm"]
 
 [materials.block]
 regions = ["left"{"" if right else ', "right"'}]
-damageable = false
+{f'toughness = "{toughness}"' if toughness else "damageable = false"}
 {material}
 
 {"[materials.right]" if right else ""}
@@ -164,6 +164,7 @@ damageable = false
 
 [fracture]
 split = "none"
+{'length = "2 mm"' if toughness else ""}
 {more}
 
 [[boundary]]

@@ -19,13 +19,13 @@ steel = {"young_modulus": 200e9, "poisson_ratio": 0.3, "yield_stress": 200e6, "i
 
 
 def j2_block(folder, law):
-    """Yields on the left of an elastic half, forth and back."""
+    """Yields and is damaged on the left of an elastic half, forth and back."""
     text = 'young_modulus = "200 GPa"\npoisson_ratio = 0.3\n'
     if law:
         text += ('law = "j2_plasticity"\nyield_stress = "200 MPa"\nisotropic_hardening = "10 GPa"\n'
                  'kinematic_hardening = "5 GPa"\n')
     stiffer = 'regions = ["right"]\ndamageable = false\nyoung_modulus = "400 GPa"\npoisson_ratio = 0.1'
-    return block(folder, x="0.02*sin(2*pi*t)", material=text, right=stiffer)
+    return block(folder, x="0.02*sin(2*pi*t)", material=text, right=stiffer, toughness="5 kJ/m^2")
 
 
 class Elastic(pfdm.OwnMaterial):
@@ -57,7 +57,9 @@ def fail():
 class Laws(Folder):
     def assert_rows_agree(self, ours, theirs, tolerance):
         self.assertEqual(len(ours), len(theirs))
-        for names in (["displacement_m"], ["force_x_N", "force_y_N"], ["interface_dissipation_J", "elastic_energy_J"]):
+        energies = ["elastic_energy_J", "fracture_energy_J", "external_work_J", "plastic_dissipation_J", "interface_energy_J",
+                    "interface_dissipation_J"]
+        for names in (["displacement_m"], ["force_x_N", "force_y_N"], ["max_damage"], energies):
             a, b = (numpy.array([[row[name] for name in names] for row in rows]) for rows in (ours, theirs))
             numpy.testing.assert_allclose(a, b, rtol=0.0, atol=tolerance * abs(b).max(), err_msg=str(names))
 
@@ -97,6 +99,8 @@ class Laws(Folder):
         self.assertGreater(numpy.ptp(their_equivalent[left]), 1e-4)
         numpy.testing.assert_allclose(ours.fields["history_6"], their_equivalent, rtol=1e-9)
         numpy.testing.assert_allclose(ours.fields["inelastic_strain"], their_strain, atol=1e-12)
+        self.assertGreater(ours.damage.max(), 0.05)
+        numpy.testing.assert_allclose(ours.damage, theirs.damage, atol=1e-9)
 
     def test_of_materials_are_those_of_a_closed_form(self):
         E, A, m, time = 100e9, 1e-28, 3.0, 100.0
@@ -225,6 +229,8 @@ class Places(Folder):
         self.assert_refused(case, "derived from pfdm.OwnMaterial", materials={"left": len})
         law.history_size = 10
         self.assert_refused(case, "history_size is 10; a whole number from 0 to 9", interfaces={"glue": law})
+        law.history_size = numpy.int64(2)
+        self.assertGreater(pfdm.FractureRun(case, interfaces={"glue": law}).step()["force_x_N"], 0.0)
         law.history_size = 1.0
         self.assert_refused(case, "history_size is 1.0", interfaces={"glue": law})
 

@@ -85,7 +85,7 @@ ScriptLaw::ScriptLaw(std::string place, const py::object& law, std::size_t most_
       respond_(law.attr("respond")),
       depends_on_rate_(py::bool_(law.attr("depends_on_rate"))) {
   const py::object size = law.attr("history_size");
-  const long n = py::isinstance<py::int_>(size) ? size.cast<long>() : -1;
+  const Py_ssize_t n = PyIndex_Check(size.ptr()) ? PyNumber_AsSsize_t(size.ptr(), nullptr) : -1;
   if (n < 0 || static_cast<std::size_t>(n) > most_numbers)
     throw InputError(fmt::format("{}: history_size is {}; a whole number from 0 to {} is expected", place_,
                                  std::string(py::repr(size)), most_numbers));
