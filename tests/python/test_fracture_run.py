@@ -231,9 +231,10 @@ class Arrays(unittest.TestCase):
 
 class Examples(unittest.TestCase):
     def test_end_well(self):
-        script = shipped / "python/bar_steps.py"
-        said = subprocess.run([sys.executable, str(script)], capture_output=True, text=True, check=True).stdout
-        self.assertIn("N/mm2", said)
+        for script, words in [("bar_steps.py", "N/mm2"), ("creeping_foam.py", "largest difference 0.18 %")]:
+            said = subprocess.run([sys.executable, str(shipped / "python" / script)], capture_output=True, text=True,
+                                  check=True).stdout
+            self.assertIn(words, said)
 
 
 if __name__ == "__main__":

@@ -69,15 +69,15 @@ class OwnInterfaceLaw(ABC):
                 strength: float, toughness: float) -> InterfaceResponse:
         """What a face bears, by its arguments alone: a step is computed many times, by several threads in any order.
 
-        Contact is the law's own too: it has to resist a negative separation along the normal. The law has to be the same
-        in all directions across the normal. In the results "damage" is what was dissipated over the toughness.
+        Contact is the law's own too: it has to resist a negative separation along the normal. All directions across the
+        normal have to be alike. A face counts as debonded from 90 % of its toughness on, that it has dissipated.
 
         Args:
             separation: of the face's sides at the end of the step [m], shape (3,): along the normal, positive where it
                 opens, and along two directions across.
             history: (history_size,), at its start.
-            duration: of the step [s], 0 without loading.duration. It is 0 too where a traction is asked for again, after
-                the step and with the history of its end: that has to be the same.
+            duration: of the step [s], 0 without loading.duration. Fields ask for the traction again after the step, with
+                the history of its end and a duration of 0: it has to be the same.
             strength, toughness: of the case at this face [Pa], [J/m^2].
         """
 
@@ -89,9 +89,9 @@ class OwnMaterial(ABC):
             def respond(self, strain_before, strain, history, duration):
                 return pfdm.MaterialResponse(self.C @ strain, self.C)
 
-    The elasticity of the case, young_modulus and poisson_ratio, is that of the first iteration of each step, and the elastic
-    part of a strain is that of the stress by it: damage is driven by its energy and by the locked one. The fields of
-    the run get "inelastic_strain", the other part, and the history as "history_0", "history_1" ...
+    The first iteration of each step takes the elasticity of the case, young_modulus and poisson_ratio. The elastic strain
+    is that of the stress by this elasticity; its energy and the locked one drive damage. The fields of the run get the
+    rest of the strain as "inelastic_strain", and the history as "history_0", "history_1" ...
 
     Attributes:
         history_size: how many numbers it remembers of each cell, at most 1000; they are 0 at first.
