@@ -1,7 +1,9 @@
 #include "cases/program/fracture/outcome/end_of_run.h"
 
+#include "cases/program/fracture/outcome/debonded_poles.h"
 #include "cases/program/fracture/outcome/heat_results.h"
 #include "cases/program/fracture/outcome/mean_curve.h"
+#include "physics/angle.h"
 #include "physics/quantity_text.h"
 #include "postproc/files/json.h"
 #include "postproc/page/display_unit.h"
@@ -116,6 +118,14 @@ std::optional<HeadFigure> figure_of_law(const nlohmann::ordered_json& surface) {
                                         law->at("traced").get<bool>() ? "" : ", not seen down to zero traction")};
 }
 
+/// "the lower pole", or "polar angles of 40 to 70 degrees".
+std::string place_of_first_debonding(const RunSummary& summary, const FractureCase& fracture) {
+  const double from = summary.other_figure("first_debonding_polar_angle_from_deg"),
+               to = summary.other_figure("first_debonding_polar_angle_to_deg");
+  if (const auto pole = pole_of(from * degree, to * degree, fracture.cohesive.axis)) return "the " + *pole;
+  return fmt::format("polar angles of {:.0f} to {:.0f} degrees", from, to);
+}
+
 }  // namespace
 
 std::string first_debonding_words(const RunSummary& summary, const FractureCase& fracture, const CurveUnits& units) {
@@ -128,8 +138,7 @@ std::string first_debonding_words(const RunSummary& summary, const FractureCase&
       two_shown_in(axes.x_shown, from, "and", to), axes.y_words,
       two_shown_in(axes.y_shown, figure(axes.y + axes.y_unit), "to", figure(axes.y + "_after" + axes.y_unit)));
   if (const double angle = figure("angle_deg"); std::isfinite(angle))
-    words += fmt::format(", at polar angles of {:.0f} to {:.0f} degrees; debonding angle {:.0f} degrees",
-                         figure("polar_angle_from_deg"), figure("polar_angle_to_deg"), angle);
+    words += fmt::format(", at {}; debonding angle {:.0f} degrees", place_of_first_debonding(summary, fracture), angle);
   return words;
 }
 
@@ -159,9 +168,12 @@ std::vector<std::string> what_happened(const FractureCase& fracture, const CaseF
   std::vector<std::string> lines;
   if (const auto heat = figure_of_hottest_place(fracture, summary))
     lines.push_back(fmt::format("greatest temperature rise {} {}", heat->value, heat->note));
-  if (has_debonded)
+  if (has_debonded) {
     lines.push_back(
         fmt::format("first debonding of \"{}\" {}", surface->second, first_debonding_words(summary, fracture, units)));
+    std::string rest = fracture.box ? "" : rest_of_debonding(surface->second, fracture.cohesive.axis, units, results);
+    if (!rest.empty()) lines.push_back(std::move(rest));
+  }
   for (std::string& line : lines_of_curve(summary, fracture, units)) lines.push_back(std::move(line));
   if (!has_debonded && summary.other_figures.contains("first_debonding_load"))
     lines.emplace_back("no debonding: every surface holds");
@@ -194,9 +206,8 @@ std::vector<HeadFigure> run_figures(const FractureCase& fracture, const CurveUni
     std::string note = fmt::format(
         "{} from {}", axes.y_words,
         two_shown_in(axes.y_shown, debonding(axes.y + axes.y_unit), "to", debonding(axes.y + "_after" + axes.y_unit)));
-    if (const double angle = debonding("angle_deg"); std::isfinite(angle))
-      note += fmt::format("; polar angles {:.0f} to {:.0f} degrees", debonding("polar_angle_from_deg"),
-                          debonding("polar_angle_to_deg"));
+    if (std::isfinite(debonding("angle_deg")))
+      note = fmt::format("at {}; {}", place_of_first_debonding(summary, fracture), note);
     figures.push_back({.label = fmt::format("First debonding of \"{}\"",
                                             surface == summary.other_texts.end() ? std::string() : surface->second),
                        .value = two_shown_in(axes.x_shown, from, "to", to),

@@ -1,12 +1,12 @@
 #include "cases/program/fracture/run/progress.h"
 
+#include "cases/program/fracture/outcome/debonded_poles.h"
 #include "cases/program/fracture/outcome/mean_curve.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <numeric>
 #include <vector>
 
@@ -101,12 +101,8 @@ std::string progress_line(const ProgressFigures& figures, int columns) {
 }
 
 std::string debonded_words(const FirstDebonding& first, const Vector& axis) {
-  constexpr double upright = 0.99;
-  constexpr double at_pole = 20.0 * std::numbers::pi / 180.0;  // a place of the mesh about the pole
-  const bool along = first.polar_from < at_pole;
-  if (!along && !(first.polar_to > std::numbers::pi - at_pole)) return fmt::format("\"{}\" debonded", first.surface);
-  if (axis.z() > upright) return along ? "upper pole debonded" : "lower pole debonded";
-  return along ? "pole along the load debonded" : "pole against the load debonded";
+  const auto pole = pole_of(first.polar_from, first.polar_to, axis);
+  return (pole ? *pole : fmt::format("\"{}\"", first.surface)) + " debonded";
 }
 
 RunProgress::RunProgress(Log& log, double start, double end, ShownOfRun shown)

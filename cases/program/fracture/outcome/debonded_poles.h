@@ -1,0 +1,25 @@
+#pragma once
+// Where surfaces around particles have come off, in words: their poles lie along the load and against it.
+
+#include "cases/program/fracture/outcome/curve_units.h"
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+namespace pfdm {
+
+/// "lower pole", "upper pole" where `axis` points up, along z, and else "pole along the load", "pole against the load".
+std::string name_of_pole(bool along, const Vector& axis);
+
+/// The pole near which places with polar angles from and to [rad] begin; none where they reach neither.
+std::optional<std::string> pole_of(double polar_from, double polar_to, const Vector& axis);
+
+/// "\"interface\" debonds at its upper pole between 451.8 and 454.3 um, where the debonding angle goes from 26 to 84
+/// degrees; at the end 99.9 % of it has debonded", of the surface of this name, by debonding.csv and cohesive.json in
+/// `results`. The pole is the one that debonds later; its greatest step is named where that is 15 degrees or more.
+/// Empty without these files.
+std::string rest_of_debonding(const std::string& surface, const Vector& axis, const CurveUnits& units,
+                              const std::filesystem::path& results);
+
+}  // namespace pfdm
