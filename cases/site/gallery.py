@@ -29,6 +29,13 @@ def picture_in(folder, readme):
     return None
 
 
+def time_of(name, readme):
+    """What the README's first command of the case takes, by the remark behind it, "8 CPU s"; else None."""
+    command = re.search(rf"\./pfdm (?:run|fit|sweep) cases/{name}(?:/\w+\.toml)?(?: [^#\n]*)?#([^\n]*)", readme)
+    time = re.search(r"[\d.]+ (?:CPU )?(?:s|seconds|minutes)\b", command[1]) if command else None
+    return time and time[0]
+
+
 class Gallery(Directive):
     """Cards of the cases of the kinds that the argument names, "fracture homogenize"."""
 
@@ -61,7 +68,10 @@ class Gallery(Directive):
             card += nodes.image(uri=place, alt=title)
         card += nodes.paragraph("", "", link)
         card += nodes.paragraph("", first_sentence(readme))
-        card += nodes.paragraph("", "", nodes.literal("", f"cases/{folder.name}"), classes=["folder"])
+        time = time_of(folder.name, readme)
+        if time is None:
+            raise self.error(f"{folder.name}/README.md does not say behind its first command how long it takes, as # 8 CPU s")
+        card += nodes.paragraph("", "", nodes.literal("", f"cases/{folder.name}"), nodes.Text(f", {time}"), classes=["folder"])
         if page_of_run(folder).is_file():
             moving = nodes.reference("", "its run, in motion", refuri=f"../{folder.name}/report.html", internal=True)
             card += nodes.paragraph("", "", moving, classes=["folder"])

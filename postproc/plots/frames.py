@@ -1,12 +1,21 @@
-"""What the pictures of bodies share: the frames of a run, and filters of VTK."""
+"""What the pictures of bodies share: the frames of a run, what colours them, and filters of VTK."""
 
 import re
 import xml.etree.ElementTree
 
+import matplotlib.colors
+import numpy
+from vtkmodules.numpy_interface.dataset_adapter import WrapDataObject
 from vtkmodules.vtkCommonDataModel import vtkDataObject
 from vtkmodules.vtkFiltersCore import vtkThreshold
 from vtkmodules.vtkFiltersGeneral import vtkWarpVector
 from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
+
+from plotting import read_columns, with_unit
+
+DAMAGE = matplotlib.colors.LinearSegmentedColormap.from_list("damage", [
+    (0.0, "#edf0f5"), (0.25, "#9ec2e0"), (0.5, "#fcd973"), (0.75, "#e85e33"), (1.0, "#66001a")])
+LOOKS = {"damage": ("damage", DAMAGE, 1.0), "von_mises": ("stress, von Mises [MPa]", "viridis", 1e-6)}
 
 
 def frames_of(results):
@@ -23,11 +32,46 @@ def frame_at(frames, time):
     return frames[-1] if time is None else min(frames, key=lambda frame: abs(frame[0] - time))
 
 
+class Curve:
+    """Force [N] over displacement [m] of a run, or of a box mean stress [Pa] over mean strain: in the direction of the most."""
+
+    def __init__(self, results):
+        is_box = (results / "stress_strain.csv").is_file()
+        file, start, end = ("stress_strain.csv", "stress_", "_Pa") if is_box else ("force_displacement.csv", "force_", "_N")
+        columns = {name: numpy.array(values) for name, values in read_columns(results / file).items()}
+        most = max((name for name in columns if name.startswith(start) and name.endswith(end)),
+                   key=lambda name: numpy.abs(columns[name]).max())
+        name = most[len(start):-len(end)]
+        self.steps, self.y = columns["step"].astype(int), columns[most]
+        self.x = columns[f"strain_{name}"] if is_box else columns["displacement_m"]
+        self.names, self.units = (("strain", "stress"), ("", "Pa")) if is_box else (("displacement", "force"), ("m", "N"))
+
+    def row_of(self, step):
+        return list(self.steps).index(step)
+
+    def caption(self, row):
+        """"624 um, 27.1 N"; of a box "strain 0.04, 1.2 MPa"."""
+        x = with_unit(self.x[row], "m") if self.units[0] else f"{self.names[0]} {self.x[row]:.3g}"
+        return f"{x}, {with_unit(self.y[row], self.units[1])}"
+
+
 def read_grid(file):
     reader = vtkXMLUnstructuredGridReader()
     reader.SetFileName(str(file))
     reader.Update()
     return reader.GetOutput()
+
+
+def coloured_grid(file, colour):
+    """The cells of a frame with the values that colour them, in the field "colour"."""
+    grid = WrapDataObject(read_grid(file))
+    if colour == "damage":
+        values = numpy.array(grid.CellData["damage"])
+    else:
+        xx, yy, zz, xy, yz, xz = numpy.array(grid.CellData["stress"]).T
+        values = numpy.sqrt(0.5 * ((xx - yy)**2 + (yy - zz)**2 + (zz - xx)**2) + 3 * (xy**2 + yz**2 + xz**2))
+    grid.CellData.append(values * LOOKS[colour][2], "colour")
+    return grid.VTKObject
 
 
 def run(a_filter, source):

@@ -7,7 +7,7 @@ Needs the Debian package python3-matplotlib.
 import argparse
 import pathlib
 
-from plotting import new_picture, read_columns, save_picture
+from plotting import new_picture, prefix_of, read_columns, save_picture
 
 DIRECTIONS = "xyz"
 
@@ -17,14 +17,16 @@ def pulled_direction(curve):
     return max(DIRECTIONS, key=lambda d: max(map(abs, curve[f"force_{d}_N"])))
 
 
-def plot(axes, path, label, direction):
+def read_curve(path, direction):
+    """Displacements [m] and forces [N]."""
     curve = read_columns(path)
-    force = curve[f"force_{direction or pulled_direction(curve)}_N"]
-    displacement = [1e6 * u for u in curve["displacement_m"]]
+    return curve["displacement_m"], curve[f"force_{direction or pulled_direction(curve)}_N"]
+
+
+def plot(axes, displacement, force, label):
     (line,) = axes.plot(displacement, force, lw=1.6, marker="o", ms=2.5, label=label)
     peak = max(range(len(force)), key=lambda i: abs(force[i]))
     axes.plot(displacement[peak], force[peak], "o", ms=7, mfc="none", mec=line.get_color())
-    return displacement[peak], force[peak]
 
 
 def main():
@@ -34,15 +36,17 @@ def main():
     parser.add_argument("--direction", choices=DIRECTIONS, help="of the force; default: that of the largest")
     parser.add_argument("--output", type=pathlib.Path, default=pathlib.Path("force_displacement.png"))
     arguments = parser.parse_args()
-    labels = arguments.labels or [path.resolve().parent.parent.name for path in arguments.curves]
+    labels = arguments.labels or [path.absolute().parent.parent.name for path in arguments.curves]
     if len(labels) != len(arguments.curves):
         parser.error(f"{len(labels)} labels for {len(arguments.curves)} curves")
 
     figure, axes = new_picture()
-    for path, label in zip(arguments.curves, labels):
-        u, f = plot(axes, path, label, arguments.direction)
-        print(f"{label}: peak {f:.6g} N at {u:.6g} um")
-    save_picture(figure, axes, "displacement [µm]", "force [N]", arguments.output)
+    curves = [read_curve(path, arguments.direction) for path in arguments.curves]
+    (along, along_prefix), (newtons, prefix) = (prefix_of(max(abs(v) for curve in curves for v in curve[axis]))
+                                                for axis in (0, 1))
+    for (displacement, force), label in zip(curves, labels):
+        plot(axes, [u / along for u in displacement], [f / newtons for f in force], label)
+    save_picture(figure, axes, f"displacement [{along_prefix}m]", f"force [{prefix}N]", arguments.output)
 
 
 if __name__ == "__main__":
