@@ -111,7 +111,10 @@ def window_of(grid, options):
     return sides
 
 
-flat = 0.4  # height of a body over its width, up to which the curve is drawn below it
+def is_flat(window):
+    """The curve of a flat body is drawn below it."""
+    left, right, bottom, top = window
+    return top - bottom < 0.4 * (right - left)
 
 
 def panels(options, window):
@@ -121,13 +124,15 @@ def panels(options, window):
         height = min(0.8 * inches * tall, inches) + 0.75
         figure = plt.figure(figsize=(inches, height))
         return figure, [figure.add_axes([0.03, 0.3 / height, 0.87, 1.0 - 0.75 / height])]
-    is_flat = tall < flat
     body = 0.83 * inches * tall + 0.55  # and its colours below
-    height = body + 3.0 if is_flat else min(max(0.46 * inches * tall, 2.0), inches) + 0.75
+    if is_flat(window):
+        height, rows_and_columns = body + 3.0, (2, 1)
+        place = {"left": 0.1, "right": 0.93, "hspace": 0.6 / (0.5 * (body + 1.7)), "height_ratios": (body, 1.7)}
+    else:
+        height, rows_and_columns = min(max(0.46 * inches * tall, 2.0), inches) + 0.75, (1, 2)
+        place = {"left": 0.03, "right": 0.97, "wspace": 0.45, "width_ratios": (0.58, 0.42)}
     figure = plt.figure(figsize=(inches, height))
-    place = {"left": 0.1, "right": 0.93, "hspace": 0.6 / (0.5 * (body + 1.7)), "height_ratios": (body, 1.7)} if is_flat else {
-        "left": 0.03, "right": 0.97, "wspace": 0.45, "width_ratios": (0.58, 0.42)}
-    grid = figure.add_gridspec(*((2, 1) if is_flat else (1, 2)), bottom=0.6 / height, top=1.0 - 0.45 / height, **place)
+    grid = figure.add_gridspec(*rows_and_columns, bottom=0.6 / height, top=1.0 - 0.45 / height, **place)
     return figure, [figure.add_subplot(part) for part in grid]
 
 
@@ -135,7 +140,7 @@ def picture_of(file, row, curve, options, window, most):
     """The picture of a frame as an image."""
     figure, (body, *beside) = panels(options, window)
     colours = draw_body(body, coloured_grid(file, options.colour), options, window, most)
-    draw_colours(body, colours, LOOKS[options.colour][0], below=bool(beside) and window[3] - window[2] < flat * (window[1] - window[0]))
+    draw_colours(body, colours, LOOKS[options.colour][0], below=bool(beside) and is_flat(window))
     for axes in beside:
         draw_curve(axes, curve, row)
     draw_caption(figure, curve.caption(row), options.warp)

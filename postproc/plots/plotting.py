@@ -77,9 +77,10 @@ def draw_scale(axes):
 
 def draw_colours(axes, shown, label, below=False):
     """The bar of colours beside a picture of a body, or below a flat one."""
-    place = {"location": "bottom", "shrink": 0.45, "anchor": (1.0, 1.0), "fraction": 0.1, "pad": 0.06, "aspect": 30} if below else {
-        "fraction": 0.045, "pad": 0.03, "aspect": 30}
-    bar = axes.figure.colorbar(shown, ax=axes, **place)
+    place = {"fraction": 0.045, "pad": 0.03}
+    if below:
+        place = {"fraction": 0.1, "pad": 0.06, "location": "bottom", "shrink": 0.45, "anchor": (1.0, 1.0)}
+    bar = axes.figure.colorbar(shown, ax=axes, aspect=30, **place)
     bar.set_label(label, fontsize=9), bar.ax.tick_params(labelsize=8), bar.outline.set_visible(False)
 
 

@@ -1,4 +1,4 @@
-"""The notebook cases/python/study.ipynb, cell by cell, and a picture and a film of one of its runs by draw_body.py.
+"""The notebook cases/python/study.ipynb, cell by cell, pictures and a film of one of its runs, and the list of pictures of cases.
 
 Exit status 77 where matplotlib, Pillow or VTK's Python is not installed.
 """
@@ -6,6 +6,7 @@ Exit status 77 where matplotlib, Pillow or VTK's Python is not installed.
 import json
 import os
 import pathlib
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -41,12 +42,38 @@ class Notebook(unittest.TestCase):
             draw = [sys.executable, checkout / "postproc/plots/draw_body.py", runs["15 MPa"].folder, "--colour", "von_mises"]
             subprocess.run([*draw, "--output", picture], check=True)
             subprocess.run([*draw, "--film", film], check=True)
+            if shutil.which("xvfb-run"):
+                self.draw_in_space(runs["15 MPa"].folder, pathlib.Path(folder) / "space.png")
             with Image.open(picture) as image:
                 self.assertEqual(image.width, 600)
                 glass = image.convert("RGB").getpixel((int(0.42 * image.width), image.height // 2))
                 self.assertNotEqual(glass, (255, 255, 255))
             with Image.open(film) as moving:
                 self.assertEqual(moving.n_frames, len(runs["15 MPa"].frames))
+
+    def draw_in_space(self, results, picture):
+        draw = ["xvfb-run", "-a", sys.executable, checkout / "postproc/plots/draw_space.py", results, "--cut", "xz"]
+        subprocess.run([*draw, "--output", picture], check=True)
+        with Image.open(picture) as image:
+            self.assertEqual(image.width, 600)
+            self.assertGreater(len(image.convert("RGB").getcolors(1 << 20)), 50)  # shaded, not a plain area
+
+
+class PicturesOfCases(unittest.TestCase):
+    def test_have_a_command_and_are_shown(self):
+        sys.path.insert(0, str(checkout / "postproc/plots"))
+        import draw_cases
+
+        listed = {picture: command[0] for _, picture, command in draw_cases.commands()}
+        for picture, script in listed.items():
+            case, name = picture.split("/")
+            self.assertTrue(script.is_file(), script)
+            self.assertTrue((checkout / "cases" / picture).is_file(), picture)
+            self.assertIn(f"({name})", (checkout / "cases" / case / "README.md").read_text(encoding="utf-8"), picture)
+        text = (checkout / "postproc/plots/pictures.txt").read_text(encoding="utf-8")
+        for case in (checkout / "cases").glob("*/case.toml"):
+            for picture in [*case.parent.glob("*.png"), *case.parent.glob("*.webp")]:
+                self.assertIn(f"{case.parent.name}/{picture.name}", text)
 
 
 if __name__ == "__main__":

@@ -110,10 +110,10 @@ ReportPage sweep_page(const fs::path& results, const std::string& title, const s
   const CsvTable table = read_csv(results / sweep_file, {.has_gaps = true});
   const SweepColumns columns = columns_of(table);
   const auto converged = std::ranges::count(table.column("converged"), 1.0);
-  ReportPage page{
-      .title = title,
-      .subtitle = fmt::format("pfdm {}, sweep of {} runs, {} of them converged", version, table.n_rows(), converged),
-      .rows = {PageRow{.blocks = {runs_table(table, columns)}}}};
+  ReportPage page{.title = title,
+                  .subtitle = fmt::format("pfdm {}, sweep of {} run{}, {} of them converged", version, table.n_rows(),
+                                          table.n_rows() == 1 ? "" : "s", converged),
+                  .rows = {PageRow{.blocks = {runs_table(table, columns)}}}};
   std::vector<PageBlock> charts;
   for (const std::size_t figure : columns.figures)
     for (const std::size_t x : columns.parameters)
