@@ -51,6 +51,16 @@ double spacing_at(const MeasuredPoints& measured, std::size_t i) {
   return std::abs(points[after].x - points[before].x) / static_cast<double>(after - before);
 }
 
+/// How far a point is from the nearest measured jump of its specimen, at which the model's curve is parted; a little
+/// less, so that rounding does not reach over it. Infinite without one.
+double room_in_branch(const MeasuredPoints& measured, const MeasuredPoints::Point& point) {
+  double room = std::numeric_limits<double>::infinity();
+  for (const MeasuredEvent& event : measured.events)
+    if (event.kind == EventKind::jump && event.specimen == point.specimen)
+      room = std::min(room, (1.0 - rounding) * std::abs(point.x - event.place));
+  return room;
+}
+
 /// The points of all curves whose specimen and row are `wanted`; `from` and `to` for the message.
 template <class Wanted>
 MeasuredPoints points_of(const std::vector<const SampledCurve*>& curves, const Wanted& wanted, double from, double to) {
@@ -107,7 +117,7 @@ std::optional<std::vector<double>> averaged_pointwise(const ModelCurves& models,
     const auto& point = measured.points[i];
     const SampledCurve& model = model_of(models, point);
     const double room = std::min(point.x - model.x.front(), model.x.back() - point.x);
-    const double reach = std::min(spacing_at(measured, i), room);
+    const double reach = std::min({spacing_at(measured, i), room, room_in_branch(measured, point)});
     if (reach > 0.0) (*residuals)[i] = (mean_about(model, point.x, reach) - point.y) / measured.scale(point);
   }
   return residuals;
@@ -223,7 +233,8 @@ std::vector<std::vector<double>> set_up_errors(const ModelCurves& models, const 
   const ModelCurves moved = measured.events.empty() ? models : moved_to_events(models, measured);
   for (const auto& point : measured.points) {
     const SampledCurve& model = model_of(moved, point);
-    const double low = model.x.front(), high = model.x.back(), step = 2e-3 * (high - low);
+    const double low = model.x.front(), high = model.x.back();
+    const double step = std::min(2e-3 * (high - low), room_in_branch(measured, point));
     const double scale = measured.scale(point);
     const double x = std::clamp(point.x, low, high), left = std::max(x - step, low), right = std::min(x + step, high);
     const double force = model.at(x), slope = (model.at(right) - model.at(left)) / (right - left);

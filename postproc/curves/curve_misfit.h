@@ -67,7 +67,8 @@ inline std::optional<std::vector<double>> residuals_of(const SampledCurve& model
 
 /// Likewise with the mean of the model's curve about each point, as far to both sides as half the way from the point
 /// before to the one after. Where the curve jumps or has a corner, the derivatives of residuals_of() depend on where
-/// the points happen to lie and on the load steps; those of means do not.
+/// the points happen to lie and on the load steps; those of means do not. No mean reaches over a jump that is an event:
+/// the curve is parted there.
 std::optional<std::vector<double>> averaged_residuals_of(const ModelCurves& models, const MeasuredPoints& measured);
 
 /// Rms of residuals_of(), not finite where there are none.

@@ -140,6 +140,26 @@ TEST(CurveEvents, CountBehindThePointsAndInPlaceOfThoseBesideThem) {
     EXPECT_NEAR(residuals[i], points.points[i].x < 6.05 ? 0.0 : after / 0.05, 1e-6) << points.points[i].x;
 }
 
+// By what the residuals change with the place of the computed jump, that of the branches is known: 0 before, half of it
+// behind. A hole of left out rows makes the means about its neighbours wide.
+TEST(CurveEvents, HaveDerivativesOfTheBranchesBesideThem) {
+  MeasuredPoints points = points_with(jump_measured_at(6.05, 0.06));
+  leave_out_near_events(points);
+  const auto here = averaged_residuals_of({curve_with(6.3)}, points).value(),
+             there = averaged_residuals_of({curve_with(6.4)}, points).value();
+  for (std::size_t i = 0; i < points.points.size(); ++i)
+    EXPECT_NEAR((there[i] - here[i]) * 0.05 / 0.1, points.points[i].x < 6.05 ? 0.0 : 0.5, 1e-6) << points.points[i].x;
+}
+
+// A point that lies as near to the jump as the differences for the slope are long.
+TEST(CurveEvents, LeaveTheSlopesOfTheBranchesToErrorsOfTheSetUp) {
+  MeasuredPoints points = points_with(jump_measured_at(6.05, 0.001));
+  points.points = {{0, 6.04, 6.04, 0.05}, {0, 6.06, 3.0, 0.05}};
+  const auto by_displacement = set_up_errors(curve_with(6.0), points)[1];
+  EXPECT_NEAR(by_displacement[0] * 0.05, 1.0, 1e-6);
+  EXPECT_NEAR(by_displacement[1] * 0.05, 0.5, 1e-6);
+}
+
 /// Largest second difference of the sum of squares over the place of the computed jump, of its range.
 double roughness_of(const MeasuredPoints& points) {
   std::vector<double> squares;
