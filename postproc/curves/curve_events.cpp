@@ -82,12 +82,13 @@ ComputedEvent computed_jump(const MeasuredEvent& event, const SampledCurve& curv
 
 ComputedEvent computed_greatest(const SampledCurve& curve) {
   const auto row = static_cast<std::size_t>(std::ranges::max_element(curve.y) - curve.y.begin());
-  const std::size_t before = row > 0 ? row - 1 : 0, after = std::min(row + 1, curve.x.size() - 1);
+  if (row + 1 == curve.x.size()) return end_of(curve);
+  const std::size_t before = row > 0 ? row - 1 : 0;
   return {.is_there = true,
           .before = row,
           .after = row,
           .displacement = curve.x[row],
-          .step = (curve.x[after] - curve.x[before]) / static_cast<double>(std::max(after - before, std::size_t{1})),
+          .step = (curve.x[row + 1] - curve.x[before]) / static_cast<double>(row + 1 - before),
           .force_before = curve.y[row],
           .force_after = curve.y[row]};
 }
@@ -195,6 +196,11 @@ double ComputedEvent::of(EventFigure figure) const {
 
 double residual_of(const ComputedEvent& computed, const MeasuredFigure& measured) {
   return (computed.of(measured.figure) - measured.value) / measured.deviation;
+}
+
+double step_at(const SampledCurve& curve, double displacement) {
+  const auto above = static_cast<std::size_t>(std::ranges::upper_bound(curve.x, displacement) - curve.x.begin());
+  return step_behind(curve, std::clamp<std::size_t>(above, 1, curve.x.size() - 1) - 1);
 }
 
 ComputedEvent computed_event(const MeasuredEvent& event, const SampledCurve& model) {

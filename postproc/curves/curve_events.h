@@ -72,8 +72,11 @@ void for_each_datum(const std::vector<MeasuredEvent>& events, const Take& take) 
 /// lies in the middle of the one that falls most. Without such a step it is where the force falls most in one, beyond
 /// jumps with a smaller number, and where it falls nowhere at the end of the curve: what it says then goes over into
 /// that of a jump where one becomes too small or leaves the curve. The first debonding is in the middle of its step, or
-/// at the end of the curve.
+/// at the end of the curve. A greatest force in the last row is not there: it has not been reached.
 ComputedEvent computed_event(const MeasuredEvent& event, const SampledCurve& model);
+
+/// Length of the step of a curve in which a displacement lies, and beyond the curve's ends of the nearest one [m].
+double step_at(const SampledCurve& curve, double displacement);
 
 /// The model's curve with its jumps where these are measured. What lies between jumps stays where it is, and goes on
 /// straight to the measured place, with the mean slope of the nearest 2 % of the curve. Unchanged where one of the

@@ -138,18 +138,6 @@ std::optional<std::vector<double>> with_events(const ModelCurves& models, const 
 
 }  // namespace
 
-void leave_out_near_events(MeasuredPoints& measured) {
-  constexpr double deviations = 3.0;
-  std::erase_if(measured.points, [&](const MeasuredPoints::Point& point) {
-    return std::ranges::any_of(measured.events, [&](const MeasuredEvent& event) {
-      return event.specimen == point.specimen &&
-             std::abs(point.x - event.place) <= deviations * event.deviation_of_place();
-    });
-  });
-  if (measured.points.empty())
-    throw InputError("no measured point lies further than three standard deviations from the events");
-}
-
 void require_deviations(const std::vector<MeasuredCurve>& specimens) {
   for (const MeasuredCurve& specimen : specimens)
     for (std::size_t i = 0; i < specimen.curve.deviation.size(); ++i)

@@ -24,7 +24,14 @@ struct MeasuredPoints {
   /// Of each specimen, where the noise is not known: those with less scatter count more. Empty: all alike.
   std::vector<double> weight{};
   std::vector<MeasuredEvent> events{};  ///< only where the noise is known
+  std::size_t left_out = 0;             ///< points in whose place events count
 
+  /// Residuals: points, and what counts of events.
+  std::size_t n_data() const {
+    std::size_t n = points.size();
+    for_each_datum(events, [&](const MeasuredEvent&, const MeasuredFigure&) { ++n; });
+    return n;
+  }
   /// That a residual of this point is divided by [as y].
   double scale(const Point& point) const {
     if (noise_is_known) return point.deviation;
@@ -51,10 +58,6 @@ using ModelCurves = std::vector<SampledCurve>;
 /// mean square of 1 over all points; empty where they hardly differ (by less than a fifth) or there is but one
 /// specimen. `residuals`: of these points.
 std::vector<double> weights_by_scatter(const std::vector<double>& residuals, const MeasuredPoints& measured);
-
-/// Leaves points out that lie within three standard deviations of the displacement of an event of the same specimen:
-/// they are its data already, or on the wrong side of it. Throws InputError if no point is left.
-void leave_out_near_events(MeasuredPoints& measured);
 
 /// Model less measurement at each point, over MeasuredPoints::scale(): its standard deviation, or the rms of all y
 /// where not every specimen has one. With events the model's jumps are moved to where those are measured

@@ -42,9 +42,11 @@ void check_fit(const FractureProgram& program, Log& log) {
     log.say(fmt::format("fit of {} between {} and {}", parameter.in_case.name,
                         parameter.in_case.shown(parameter.in_fit.lower),
                         parameter.in_case.shown(parameter.in_fit.upper)));
-  if (program.experiment)
+  if (program.experiment) {
+    require_in_a_stage(*program.fit, program.experiment->specimens, program.experiment->events);
     for (const MeasuredEvent& event : program.experiment->events)
       log.say(event_words(event, program.experiment->specimens[event.specimen].curve.name));
+  }
   log.say(fit_words(*program.fit));
 }
 

@@ -1,5 +1,5 @@
 #include "postproc/curves/curve_events.h"
-#include "postproc/curves/curve_misfit.h"
+#include "postproc/curves/event_rows.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -75,6 +75,24 @@ TEST(CurveEvents, ThatAreNotThereGoOverIntoThoseThatAre) {
   EXPECT_NEAR(gone.force_before, late.force_before, 2.0 * step);
 }
 
+TEST(CurveEvents, HaveNoGreatestForceWhereItStillRises) {
+  const MeasuredEvent event{.kind = EventKind::greatest_force, .place = 8.0};
+  const SampledCurve curve = curve_with(12.0);
+  EXPECT_FALSE(computed_event(event, curve).is_there);
+  EXPECT_EQ(computed_event(event, curve).of(EventFigure::force), curve.y.back());
+  EXPECT_TRUE(computed_event(event, curve_with(6.0)).is_there);
+  EXPECT_FALSE(computed_event(event, up_to(curve_with(6.0), 5.5)).is_there);
+}
+
+TEST(CurveEvents, LieInAStepWhereverTheyAre) {
+  const SampledCurve curve{.name = "", .x = {0, 1, 3, 3, 7}, .y = {0, 1, 3, 2, 5}};
+  EXPECT_EQ(step_at(curve, -1.0), 1.0);
+  EXPECT_EQ(step_at(curve, 1.5), 2.0);
+  EXPECT_EQ(step_at(curve, 5.0), 4.0);
+  EXPECT_EQ(step_at(curve, 7.0), 4.0);
+  EXPECT_EQ(step_at(curve, 9.0), 4.0);
+}
+
 TEST(CurveEvents, HoldTheFirstDebondingWithWhatTheSetUpAdds) {
   SampledCurve curve = curve_with(12.0);
   const MeasuredEvent event{.kind = EventKind::first_debonding, .place = 4.0};
@@ -128,7 +146,7 @@ TEST(CurveEvents, CountBehindThePointsAndInPlaceOfThoseBesideThem) {
   event.figures.push_back({EventFigure::force_after, 3.0, 0.2, false});
   MeasuredPoints points = points_with(event);
   const std::size_t all = points.points.size();
-  leave_out_near_events(points);
+  leave_out_rows_of_events(points);
   EXPECT_EQ(all - points.points.size(), 4u);  // within 0.18
   const auto residuals = residuals_of(curve_with(6.3), points).value();
   ASSERT_EQ(residuals.size(), points.points.size() + 2);
@@ -144,7 +162,7 @@ TEST(CurveEvents, CountBehindThePointsAndInPlaceOfThoseBesideThem) {
 // behind. A hole of left out rows makes the means about its neighbours wide.
 TEST(CurveEvents, HaveDerivativesOfTheBranchesBesideThem) {
   MeasuredPoints points = points_with(jump_measured_at(6.05, 0.06));
-  leave_out_near_events(points);
+  leave_out_rows_of_events(points);
   const auto here = averaged_residuals_of({curve_with(6.3)}, points).value(),
              there = averaged_residuals_of({curve_with(6.4)}, points).value();
   for (std::size_t i = 0; i < points.points.size(); ++i)
@@ -180,7 +198,7 @@ TEST(CurveEvents, MakeTheSumOfSquaresSmooth) {
   std::erase_if(with.points, [](const auto& point) { return std::fmod(point.x + 1e-6, 0.5) > 0.01; });
   MeasuredPoints without = with;
   without.events.clear();
-  leave_out_near_events(with);
+  leave_out_rows_of_events(with);
   EXPECT_LT(roughness_of(with), 0.02);
   EXPECT_GT(roughness_of(without), 0.15);
 }

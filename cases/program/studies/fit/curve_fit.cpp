@@ -29,6 +29,12 @@ constexpr double reach_of_sample = 1.5;  // of the sample: a factor of 4.5
 
 RunCounts counts_of(const CaseRuns& runs) { return {runs.n_made(), runs.n_reused(), runs.n_failed()}; }
 
+/// Whether the displacements of events are known alike: an eighth of a standard error is not worth more runs.
+bool is_as_exact(const MeasuredEvent& a, const MeasuredEvent& b) {
+  constexpr double noticeable = 0.05;
+  return std::abs(a.deviation_of_place() - b.deviation_of_place()) <= noticeable * b.deviation_of_place();
+}
+
 void start_at(const std::vector<double>& values, FitProblem& problem) {
   for (std::size_t j = 0; j < values.size(); ++j) problem.parameters[j].start = values[j];
 }
@@ -53,13 +59,13 @@ CurveFit::CurveFit(const CurveFitJob& job, Session& session)
     is_of_set_up_.push_back(
         std::ranges::any_of(parameter.keys, [](const std::string& key) { return key.starts_with("experiment."); }));
   values_ = first_;
+  events_ = job_.events;
   is_estimated_.resize(values_.size(), false);
   is_doubtful_.resize(values_.size(), false);
 }
 
 void CurveFit::run() {
   const Stopwatch watch;
-  widen_events();
   std::vector<FitStage> stages;
   for (const CurveFitStage& stage : job_.settings.stages) stages.push_back(fit_stage(stage));
   const SampledCurve fitted = curve_at(values_, std::nullopt);
@@ -139,6 +145,24 @@ void CurveFit::weigh_specimens(const CurveFitStage& stage, std::optional<double>
   }
 }
 
+void CurveFit::widen_by_estimates(const CurveFitStage& stage, std::optional<double> until, const FitSettings& settings,
+                                  MeasuredPoints& points, FittedPoints& fitted) {
+  constexpr int most_turns = 2;
+  const SampledCurve first_curve = curve_at(first_, until);
+  for (int turn = 0; turn < most_turns; ++turn) {
+    const std::vector<double> estimates = fitted.result.values();
+    std::vector<MeasuredEvent> events = widened_events(stage, with_stage(stage, estimates), until);
+    if (std::ranges::equal(events, events_, is_as_exact)) return;
+    session_.log.say("  again, for the load steps about the events are others with the estimates");
+    events_ = std::move(events);
+    points = points_of(stage, first_curve);
+    say(stage, points);
+    FitProblem problem = problem_of(stage, points, until, model_);
+    start_at(estimates, problem);
+    fitted = fit_points(stage, points, until, from_one_start(settings), problem);
+  }
+}
+
 bool CurveFit::screen(const FitProblem& problem, const FitSettings& settings, double misfit, FitResult& result) {
   const bool is_noise = result.noise_is_known ? result.rms < 1.1 : whiteness(result.residuals).inflation < 1.25;
   if (settings.starts > 1 || settings.screened > 0 || !(misfit > lost_misfit) || is_noise) return false;
@@ -171,10 +195,13 @@ bool CurveFit::judge_stage(const DoneStage& done, FitFindings& found) {
 FitStage CurveFit::fit_stage(const CurveFitStage& stage) {
   const std::optional<double> until = end_of_runs(stage);
   const SampledCurve first_curve = curve_at(first_, until);
+  events_ = widened_events(stage, values_, until);
   MeasuredPoints points = points_of(stage, first_curve);
+  say(stage, points);
   const FitSettings settings = settings_of(stage, points);
   FittedPoints fitted = fit_points(stage, points, until, settings, problem_of(stage, points, until, model_));
   weigh_specimens(stage, until, settings, points, fitted);
+  widen_by_estimates(stage, until, settings, points, fitted);
   const auto& [result, problem] = fitted;
   values_ = with_stage(stage, result.values());
   for (const std::size_t j : stage.parameters) is_estimated_[j] = true;
@@ -182,7 +209,7 @@ FitStage CurveFit::fit_stage(const CurveFitStage& stage) {
                  .from = points.points.front().x,
                  .to = points.points.back().x,
                  .found = findings_of(problem.parameters, result)};
-  found.found.first_rms = rms_residual(as_recorded_by_all(first_curve, first_), points);
+  found.found.first_rms = rms_residual(as_recorded_by_all(first_curve, first_, until), points);
   const DoneStage done{stage, points, problem, settings, result, until};
   const bool model_error = judge_stage(done, found.found);
   doubt(done, model_error, found.found);
@@ -215,6 +242,7 @@ std::vector<CurveFitStage>::const_iterator CurveFit::last_stage_of(std::size_t p
 
 void fit_curve(const CurveFitJob& job, Session& session) {
   require_start_within_bounds(job.settings.where, job.settings.parameters);
+  require_in_a_stage(job.settings, job.specimens, job.events);
   const FolderLock lock(session.results);
   session.log.say(head_line(session, fmt::format("fit of {}: {}", job.name, job.title)));
   session.log.open_file(session.results / "fit.log", true);

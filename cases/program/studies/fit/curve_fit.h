@@ -37,6 +37,10 @@ struct CurveFitJob {
   std::string title;
 };
 
+/// Throws InputError if an event of the specimens' curves lies in no stage.
+void require_in_a_stage(const CurveFitSettings& settings, const std::vector<MeasuredCurve>& specimens,
+                        const std::vector<MeasuredEvent>& events);
+
 /// Writes fit.json, fit_curve.csv, with a posterior fit_posterior.csv and fit_law_N.csv, and case.fitted.toml to
 /// session.results, the runs to runs/ there. Killed at any moment it continues, at the next call, with the runs that it
 /// left, to the same result.

@@ -41,14 +41,19 @@ class CurveFit {
   std::vector<SetUp> set_ups_at(const std::vector<double>& values) const;
   /// The least that the set-up may add, within the bounds.
   std::vector<SetUp> least_set_ups() const;
-  /// A computed curve as each specimen's record would show it.
-  ModelCurves as_recorded_by_all(const SampledCurve& computed, const std::vector<double>& values) const;
+  /// A computed curve as each specimen's record would show it. Where there are events it ends at `until`, the end of
+  /// the runs that a stage needs: what a longer run has of them depends on which runs were made before.
+  ModelCurves as_recorded_by_all(const SampledCurve& computed, const std::vector<double>& values,
+                                 std::optional<double> until) const;
   /// How far a stage's runs have to go: a smaller offset or compliance on trial needs more of the computed curve.
   std::optional<double> end_of_runs(const CurveFitStage& stage) const;
   /// The same ones with all values of the set-up: the computed curve reaches them with each.
   MeasuredPoints points_of(const CurveFitStage& stage, const SampledCurve& curve);
-  /// Takes into the standard deviations of the events' displacements what load steps leave open of the computed ones.
-  void widen_events();
+  void say(const CurveFitStage& stage, const MeasuredPoints& points);
+  /// All events. The standard deviations of the displacements of those of the stage have what the load steps leave open
+  /// with these values: that of the computed event, or where it is not there the one about the measured place.
+  std::vector<MeasuredEvent> widened_events(const CurveFitStage& stage, const std::vector<double>& values,
+                                            std::optional<double> until);
   /// The events of the stage, in place of the points beside them; in curve_fit_events.cpp. `latest`: the last
   /// displacement of each specimen that computed curves reach.
   void add_events(const CurveFitStage& stage, const std::vector<double>& latest, MeasuredPoints& points);
@@ -73,10 +78,14 @@ class CurveFit {
   /// Fits again, with each specimen weighted by its own scatter, where those differ.
   void weigh_specimens(const CurveFitStage& stage, std::optional<double> until, const FitSettings& settings,
                        MeasuredPoints& points, FittedPoints& fitted);
+  /// Fits again where the load steps about an event are others than those with which it began.
+  void widen_by_estimates(const CurveFitStage& stage, std::optional<double> until, const FitSettings& settings,
+                          MeasuredPoints& points, FittedPoints& fitted);
   /// Fits again from the best of a sample, where the first guess has led nowhere. Returns whether that was better.
   bool screen(const FitProblem& problem, const FitSettings& settings, double misfit, FitResult& result);
   bool judge_stage(const DoneStage& done, FitFindings& found);
   std::vector<CurveFitStage>::const_iterator last_stage_of(std::size_t parameter) const;
+  const CurveFitStage& last_stage_of(const MeasuredEvent& event) const;
   /// Whether an earlier stage that is not sound estimated what neither this one nor a later one does: then the whole
   /// fit has no intervals, and runs for them are saved.
   bool rests_on_doubts(const CurveFitStage& stage) const;
@@ -104,7 +113,7 @@ class CurveFit {
                          Eigen::Index row, FitFindings& found) const;
   /// Whether the case that [fit] `finer` makes has the event where it was measured.
   bool finer_meets(const DoneStage& done, const MeasuredEvent& event, const MeasuredFigure& figure);
-  /// What the fitted curve has of all events.
+  /// What the fitted curve has of all events, each as the last stage that has it.
   std::vector<FittedEvent> fitted_events(const SampledCurve& fitted) const;
   /// The residuals of the stage that ends the fit, of the case that [fit] `finer` makes.
   std::optional<FinerModel> on_finer_model(const DoneStage& done);

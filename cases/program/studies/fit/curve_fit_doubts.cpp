@@ -48,7 +48,8 @@ bool CurveFit::suspect_law_or_set_up(const DoneStage& done, const SampledCurve& 
                                      FitFindings& found) {
   constexpr double telling_set_up = 0.5, telling_law = 0.8, alike = 1.2;  // of the rms
   const double rms = done.result.rms;
-  const std::vector<std::vector<double>> errors = set_up_errors(as_recorded_by_all(fitted, values_), done.points);
+  const std::vector<std::vector<double>> errors =
+      set_up_errors(as_recorded_by_all(fitted, values_, done.until), done.points);
   const double left = rms_left_by(done.result.residuals, errors);
   const bool is_set_up = left < telling_set_up * rms && !preloads(done, errors);
   const auto law = misses_origin && !is_set_up ? std::nullopt : other_law(done);
@@ -118,7 +119,7 @@ std::optional<FinerModel> CurveFit::on_finer_model(const DoneStage& done) {
   session_.log.say(fmt::format("  at the estimates with {}", finer_->shown));
   CurveModel model(finer_->file, parameters_, job_.read_curve, runs_);
   const auto curve = model.respond(values_, done.until);
-  auto residuals = curve ? residuals_of(as_recorded_by_all(*curve, values_), done.points) : std::nullopt;
+  auto residuals = curve ? residuals_of(as_recorded_by_all(*curve, values_, done.until), done.points) : std::nullopt;
   if (residuals) return FinerModel{finer_->shown, std::move(*residuals)};
   session_.log.warn(fmt::format("with {} the run does not converge, or not as far as the data go", finer_->shown));
   return std::nullopt;

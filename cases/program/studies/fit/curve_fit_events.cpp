@@ -2,6 +2,7 @@
 
 #include "cases/program/studies/fit/curve_fit_at_work.h"
 #include "physics/quantity_text.h"
+#include "postproc/curves/event_rows.h"
 
 #include <fmt/format.h>
 
@@ -14,11 +15,21 @@ namespace {
 
 constexpr double surely_elsewhere = 4.0;  // standard deviations
 
+bool is_in(const CurveFitStage& stage, const MeasuredEvent& event, const std::vector<MeasuredCurve>& specimens) {
+  const double place = displacement_of_specimen(specimens[event.specimen], event.place);
+  return place >= stage.from && place <= stage.to;
+}
+
 std::string lacking_text(const MeasuredEvent& event, const std::string& specimen) {
   if (event.kind == EventKind::first_debonding)
     return fmt::format(
         "nothing debonds in the fitted run, or it has no surface that could ([cohesive], [[interface]]): "
         "the residuals of the {} of {} are those of the end of the curve",
+        event.name(), specimen);
+  if (event.kind == EventKind::greatest_force)
+    return fmt::format(
+        "the force of the fitted curve is greatest at its end: it has not reached the {} of {}, whose residuals are "
+        "those of the end of the curve",
         event.name(), specimen);
   return fmt::format(
       "the fitted curve lacks {} of {}: nowhere else does its force fall in one step by more than {:g} % "
@@ -26,47 +37,37 @@ std::string lacking_text(const MeasuredEvent& event, const std::string& specimen
       event.name(), specimen, 100.0 * event.least_fall);
 }
 
-/// Where the load steps about the event are much longer than they were with the first guess.
-std::optional<std::string> coarseness(const MeasuredEvent& event, const SampledCurve& curve) {
-  constexpr double longer = 1.5;
-  const double step = computed_event(event, curve).step;
-  if (!(step / std::sqrt(12.0) > longer * event.deviation_of_place()) || event.deviation_of_place() == 0.0)
-    return std::nullopt;
-  return fmt::format(
-      "{} of {} is computed within a load step of {}, beside which its standard deviation of {} is small: "
-      "the intervals do not hold that; take shorter load steps about it",
-      event.name(), curve.name, quantity_text(step, "m", 2), quantity_text(event.deviation_of_place(), "m", 2));
-}
-
 }  // namespace
 
-void CurveFit::widen_events() {
-  events_ = job_.events;
-  if (events_.empty()) return;
-  const ModelCurves curves = as_recorded_by_all(curve_at(first_, std::nullopt), first_);
-  for (MeasuredEvent& event : events_) {
-    const SampledCurve& curve = curves[event.specimen];
-    const double step = computed_event(event, curve).step;
-    for (MeasuredFigure& figure : event.figures)
+std::vector<MeasuredEvent> CurveFit::widened_events(const CurveFitStage& stage, const std::vector<double>& values,
+                                                    std::optional<double> until) {
+  if (events_.empty()) return {};
+  std::vector<MeasuredEvent> events = events_;
+  const ModelCurves curves = as_recorded_by_all(curve_at(values, until), values, until);
+  for (std::size_t k = 0; k < events.size(); ++k) {
+    if (!is_in(stage, events[k], job_.specimens)) continue;
+    events[k] = job_.events[k];
+    const SampledCurve& curve = curves[events[k].specimen];
+    const ComputedEvent computed = computed_event(events[k], curve);
+    const double step = computed.is_there ? computed.step : step_at(curve, events[k].place);
+    for (MeasuredFigure& figure : events[k].figures)
       if (figure.counts && figure.figure == EventFigure::displacement)
         figure.deviation = std::hypot(figure.deviation, step / std::sqrt(12.0));
-    session_.log.say(event_words(event, job_.specimens[event.specimen].curve.name));
   }
+  return events;
 }
 
 void CurveFit::add_events(const CurveFitStage& stage, const std::vector<double>& latest, MeasuredPoints& points) {
   for (const MeasuredEvent& event : events_) {
-    const MeasuredCurve& specimen = job_.specimens[event.specimen];
-    const double place = event.place - specimen.set_up.offset;
-    if (place < stage.from || place > stage.to) continue;
+    if (!is_in(stage, event, job_.specimens)) continue;
     if (event.place > latest[event.specimen])
-      throw job_.settings.where.error(
-          fmt::format("{} of \"{}\" lies beyond the end of the computed curve, {}: load further, or leave it out of "
-                      "[[experiment.events]]",
-                      event.name(), specimen.curve.name, quantity_text(latest[event.specimen], "m")));
+      throw job_.settings.where.error(fmt::format(
+          "{} of \"{}\" lies beyond the end of the computed curve, {}: load further, or leave it out of "
+          "[[experiment.events]]",
+          event.name(), job_.specimens[event.specimen].curve.name, quantity_text(latest[event.specimen], "m")));
     points.events.push_back(event);
   }
-  if (!points.events.empty()) job_.settings.where.in_context([&] { leave_out_near_events(points); });
+  if (!points.events.empty()) job_.settings.where.in_context([&] { leave_out_rows_of_events(points); });
 }
 
 bool CurveFit::finer_meets(const DoneStage& done, const MeasuredEvent& event, const MeasuredFigure& figure) {
@@ -74,7 +75,7 @@ bool CurveFit::finer_meets(const DoneStage& done, const MeasuredEvent& event, co
   CurveModel model(finer_->file, parameters_, job_.read_curve, runs_);
   const auto curve = model.respond(values_, done.until);
   if (!curve) return false;
-  const ComputedEvent computed = computed_event(event, as_recorded_by_all(*curve, values_)[event.specimen]);
+  const ComputedEvent computed = computed_event(event, as_recorded_by_all(*curve, values_, done.until)[event.specimen]);
   return computed.is_there && std::abs(residual_of(computed, figure)) <= surely_elsewhere;
 }
 
@@ -100,7 +101,7 @@ void CurveFit::doubt_derivatives(const DoneStage& done, const MeasuredEvent& eve
 
 void CurveFit::doubt_events(const DoneStage& done, const SampledCurve& fitted, FitFindings& found) {
   if (done.points.events.empty()) return;
-  ModelCurves curves = as_recorded_by_all(done.until ? up_to(fitted, *done.until) : fitted, values_);
+  ModelCurves curves = as_recorded_by_all(fitted, values_, done.until);
   auto row = std::ssize(done.points.points);
   for (const MeasuredEvent& event : done.points.events) {
     SampledCurve& curve = curves[event.specimen];
@@ -120,7 +121,6 @@ void CurveFit::doubt_events(const DoneStage& done, const SampledCurve& fitted, F
                              quantity_text(computed.of(figure.figure), std::string(unit_of(figure.figure))),
                              std::abs(residual), quantity_text(figure.value, std::string(unit_of(figure.figure)))));
     }
-    if (auto warning = coarseness(event, curve)) found.warnings.push_back(std::move(*warning));
   }
   for (std::size_t s = 0; s < curves.size(); ++s)
     if (!has_jumps_as_measured(curves[s], done.points.events, s) &&
@@ -132,12 +132,18 @@ void CurveFit::doubt_events(const DoneStage& done, const SampledCurve& fitted, F
                                   job_.specimens[s].curve.name));
 }
 
+const CurveFitStage& CurveFit::last_stage_of(const MeasuredEvent& event) const {
+  const std::vector<CurveFitStage>& stages = job_.settings.stages;
+  return *std::ranges::find_if(stages.rbegin(), stages.rend(),
+                               [&](const CurveFitStage& stage) { return is_in(stage, event, job_.specimens); });
+}
+
 std::vector<FittedEvent> CurveFit::fitted_events(const SampledCurve& fitted) const {
   constexpr EventFigure of_jump[] = {EventFigure::displacement, EventFigure::force_before, EventFigure::force_after};
   constexpr EventFigure of_greatest[] = {EventFigure::displacement, EventFigure::force};
   std::vector<FittedEvent> events;
-  const ModelCurves curves = as_recorded_by_all(fitted, values_);
   for (const MeasuredEvent& event : events_) {
+    const ModelCurves curves = as_recorded_by_all(fitted, values_, end_of_runs(last_stage_of(event)));
     const ComputedEvent computed = computed_event(event, curves[event.specimen]);
     FittedEvent told{.name = event.name(),
                      .specimen = job_.specimens[event.specimen].curve.name,
@@ -159,6 +165,18 @@ std::vector<FittedEvent> CurveFit::fitted_events(const SampledCurve& fitted) con
     events.push_back(std::move(told));
   }
   return events;
+}
+
+void require_in_a_stage(const CurveFitSettings& settings, const std::vector<MeasuredCurve>& specimens,
+                        const std::vector<MeasuredEvent>& events) {
+  for (const MeasuredEvent& event : events)
+    if (std::ranges::none_of(settings.stages,
+                             [&](const CurveFitStage& stage) { return is_in(stage, event, specimens); }))
+      throw settings.where.at("stages").error(fmt::format(
+          "{} of \"{}\", at {} of the specimen, lies between the displacements of no stage: it would not count; widen "
+          "\"between\" of a stage, or leave it out of [[experiment.events]]",
+          event.name(), specimens[event.specimen].curve.name,
+          quantity_text(displacement_of_specimen(specimens[event.specimen], event.place), "m")));
 }
 
 }  // namespace pfdm

@@ -40,9 +40,12 @@ std::vector<SetUp> CurveFit::least_set_ups() const {
   return set_ups_at(values);
 }
 
-ModelCurves CurveFit::as_recorded_by_all(const SampledCurve& computed, const std::vector<double>& values) const {
+ModelCurves CurveFit::as_recorded_by_all(const SampledCurve& computed, const std::vector<double>& values,
+                                         std::optional<double> until) const {
+  const bool is_cut = until && !events_.empty();
+  const SampledCurve& compared = is_cut ? up_to(computed, *until) : computed;
   ModelCurves curves;
-  for (const SetUp& set_up : set_ups_at(values)) curves.push_back(as_recorded(computed, set_up));
+  for (const SetUp& set_up : set_ups_at(values)) curves.push_back(as_recorded(compared, set_up));
   return curves;
 }
 
@@ -65,13 +68,20 @@ MeasuredPoints CurveFit::points_of(const CurveFitStage& stage, const SampledCurv
   MeasuredPoints points = job_.settings.where.in_context(
       [&] { return points_between(job_.specimens, std::max(stage.from, curve.x.front()), stage.to, latest); });
   add_events(stage, latest, points);
+  return points;
+}
+
+void CurveFit::say(const CurveFitStage& stage, const MeasuredPoints& points) {
+  for (const MeasuredEvent& event : points.events)
+    session_.log.say(event_words(event, job_.specimens[event.specimen].curve.name));
   session_.log.say(fmt::format("stage \"{}\": {} parameters, {} measured points from {}{}", stage.name,
                                stage.parameters.size(), points.points.size(),
                                quantities_text({std::ranges::min(points.points, {}, &MeasuredPoints::Point::x).x,
                                                 std::ranges::max(points.points, {}, &MeasuredPoints::Point::x).x},
                                                "m", " to "),
-                               points.events.empty() ? "" : fmt::format(", events: {}", points.events.size())));
-  return points;
+                               points.events.empty() ? ""
+                                                     : fmt::format(", events: {} in place of {} points",
+                                                                   points.events.size(), points.left_out)));
 }
 
 FitProblem CurveFit::problem_of(const CurveFitStage& stage, const MeasuredPoints& points, std::optional<double> until,
@@ -90,8 +100,7 @@ FitProblem CurveFit::problem_of(const CurveFitStage& stage, const MeasuredPoints
       const std::vector<double> all = with_stage(stage, values);
       const auto curve = model.respond(all, until);
       if (!curve) return std::optional<std::vector<double>>{};
-      const bool is_cut = until && !points.events.empty();  // what a longer run has of events depends on chance
-      return compared(as_recorded_by_all(is_cut ? up_to(*curve, *until) : *curve, all), points);
+      return compared(as_recorded_by_all(*curve, all, until), points);
     };
   };
   problem.residuals = residuals_by(
@@ -111,7 +120,7 @@ FitSettings CurveFit::settings_of(const CurveFitStage& stage, const MeasuredPoin
   settings.starts = stage.starts;
   settings.screened = stage.screened;
   settings.exactness = exactness;
-  settings.cost_tolerance = least_change / static_cast<double>(points.points.size() + points.events.size());
+  settings.cost_tolerance = least_change / static_cast<double>(points.n_data());
   settings.iterated = [this, &stage](const FitIteration& iteration) {
     session_.log.say(fmt::format("  rms residual {:.5g} at {}", iteration.rms,
                                  model_.shown(with_stage(stage, iteration.parameters))));
