@@ -76,14 +76,16 @@ SampledCurve driven_curve(const SampledCurve& followed) {
   SampledCurve driven{.name = followed.name, .x = {}, .y = {}};
   for (std::size_t i = 0; i < followed.x.size(); ++i) {
     const double x = followed.x[i], y = followed.y[i];
-    if (!driven.x.empty() && x < driven.x.back()) continue;
-    if (i > 0 && followed.x[i - 1] < driven.x.back()) {  // it comes back from a fall
-      const double last = driven.x.back(), share = (last - followed.x[i - 1]) / (x - followed.x[i - 1]);
-      driven.x.push_back(last);
-      driven.y.push_back(followed.y[i - 1] + share * (y - followed.y[i - 1]));
+    if (const bool falls_back = !driven.x.empty() && x < driven.x.back(); !falls_back) {
+      if (i > 0 && followed.x[i - 1] < driven.x.back()) {  // it comes back from a fall
+        const double last = driven.x.back(), share = (last - followed.x[i - 1]) / (x - followed.x[i - 1]);
+        driven.x.push_back(last);
+        driven.y.push_back(followed.y[i - 1] + share * (y - followed.y[i - 1]));
+      }
+      driven.x.push_back(x);
+      driven.y.push_back(y);
     }
-    driven.x.push_back(x);
-    driven.y.push_back(y);
+    if (followed.first_debonding == i) driven.first_debonding = driven.x.size() - 1;
   }
   return driven;
 }

@@ -1,30 +1,29 @@
 #pragma once
 // A computed curve against measured ones, over the range that all of them cover.
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace pfdm {
 
-/// Between which points of a curve something happened: the last one before and the first one after it.
-struct Between {
-  double x_before = 0.0, y_before = 0.0, x_after = 0.0, y_after = 0.0;
-};
-
 /// y over x, linear in between; x does not fall. SI.
 struct SampledCurve {
   std::string name;
   std::vector<double> x, y;
-  std::vector<double> deviation{};           ///< standard deviation of y; empty if it is not known
-  std::optional<Between> first_debonding{};  ///< of a computed curve; nothing where nothing debonds, or it is not known
+  std::vector<double> deviation{};  ///< standard deviation of y; empty if it is not known
+  /// Of a computed curve: the row behind which something debonds first, in the step to the next one. Nothing where
+  /// nothing debonds, or it is not known.
+  std::optional<std::size_t> first_debonding{};
 
   /// At x, which lies in the curve's range.
   double at(double x) const;
 };
 
 /// The curve of a test that is driven by its displacement: where the computed one falls back (path-following), the
-/// force drops at the largest displacement so far to the branch that continues there.
+/// force drops at the largest displacement so far to the branch that continues there. What debonds while it falls back
+/// debonds in that drop.
 SampledCurve driven_curve(const SampledCurve& followed);
 
 /// At points evenly spaced over the common range.

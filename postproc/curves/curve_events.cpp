@@ -94,13 +94,9 @@ ComputedEvent computed_greatest(const SampledCurve& curve) {
 }
 
 ComputedEvent computed_debonding(const SampledCurve& curve) {
-  if (!curve.first_debonding) return end_of(curve);
-  const Between& step = *curve.first_debonding;
-  return {.is_there = true,
-          .displacement = 0.5 * (step.x_before + step.x_after),
-          .step = std::max(step.x_after - step.x_before, 0.0),
-          .force_before = step.y_before,
-          .force_after = step.y_after};
+  if (!curve.first_debonding || *curve.first_debonding + 1 >= curve.x.size()) return end_of(curve);
+  const std::size_t row = *curve.first_debonding;
+  return jump_by(curve, {row, row + 1, row}, true);
 }
 
 /// A part of a curve without jumps.
@@ -129,25 +125,47 @@ struct Branch {
 struct Pair {
   std::size_t before = 0, after = 0;
   double place = 0.0;
+  double apart = 0.0;  ///< from there
+
+  bool is_in_order_with(const Pair& other) const {
+    return place < other.place ? after <= other.before : other.place < place && other.after <= before;
+  }
 };
 
-/// Rising in both; empty if a jump is not there, or if two are the same or in another order.
-std::vector<Pair> jumps_in_order(const SampledCurve& model, const std::vector<MeasuredEvent>& events,
+/// The measured jumps of a specimen that the model has.
+std::vector<Pair> jumps_of_model(const SampledCurve& model, const std::vector<MeasuredEvent>& events,
                                  std::size_t specimen) {
   std::vector<Pair> pairs;
   for (const MeasuredEvent& event : events) {
     if (event.kind != EventKind::jump || event.specimen != specimen) continue;
     const ComputedEvent computed = computed_event(event, model);
-    if (!computed.is_there) return {};
-    pairs.push_back({computed.before, computed.after, event.place});
+    if (computed.is_there)
+      pairs.push_back({computed.before, computed.after, event.place, std::abs(computed.displacement - event.place)});
   }
-  std::ranges::sort(pairs, {}, &Pair::place);
-  for (std::size_t k = 0; k + 1 < pairs.size(); ++k)
-    if (pairs[k].after > pairs[k + 1].before) return {};
   return pairs;
 }
 
+/// Rising in both: of those that are the same jump, or in another order, the nearest.
+std::vector<Pair> in_order(std::vector<Pair> pairs) {
+  std::ranges::stable_sort(pairs, {}, &Pair::apart);
+  std::vector<Pair> kept;
+  for (const Pair& pair : pairs)
+    if (std::ranges::all_of(kept, [&](const Pair& other) { return pair.is_in_order_with(other); }))
+      kept.push_back(pair);
+  std::ranges::sort(kept, {}, &Pair::place);
+  return kept;
+}
+
 }  // namespace
+
+std::string_view name_of(EventKind kind) {
+  switch (kind) {
+    case EventKind::greatest_force: return "greatest force";
+    case EventKind::first_debonding: return "first debonding";
+    case EventKind::jump: break;
+  }
+  return "jump";
+}
 
 std::string_view name_of(EventFigure figure) {
   switch (figure) {
@@ -161,8 +179,8 @@ std::string_view name_of(EventFigure figure) {
 
 std::string_view unit_of(EventFigure figure) { return figure == EventFigure::displacement ? "m" : "N"; }
 
-std::string in_words(EventFigure figure) {
-  std::string words(name_of(figure));
+std::string in_words(std::string_view name) {
+  std::string words(name);
   std::ranges::replace(words, '_', ' ');
   return words;
 }
@@ -179,8 +197,7 @@ std::string event_words(const MeasuredEvent& event, std::string_view specimen) {
 }
 
 std::string MeasuredEvent::name() const {
-  if (kind == EventKind::greatest_force) return "greatest force";
-  if (kind == EventKind::first_debonding) return "first debonding";
+  if (kind != EventKind::jump) return std::string(name_of(kind));
   return number ? fmt::format("jump {}", *number) : fmt::format("jump at {}", quantity_text(place, "m"));
 }
 
@@ -215,7 +232,7 @@ ComputedEvent computed_event(const MeasuredEvent& event, const SampledCurve& mod
 SampledCurve with_jumps_as_measured(const SampledCurve& model, const std::vector<MeasuredEvent>& events,
                                     std::size_t specimen) {
   constexpr double share = 0.02;  // of the curve: the slope at a branch's end
-  const std::vector<Pair> jumps = jumps_in_order(model, events, specimen);
+  const std::vector<Pair> jumps = in_order(jumps_of_model(model, events, specimen));
   if (jumps.empty()) return model;
   const double reach = share * (model.x.back() - model.x.front());
   SampledCurve moved{.name = model.name, .x = {}, .y = {}};
@@ -239,11 +256,9 @@ SampledCurve with_jumps_as_measured(const SampledCurve& model, const std::vector
   return moved;
 }
 
-bool has_jumps_as_measured(const SampledCurve& model, const std::vector<MeasuredEvent>& events, std::size_t specimen) {
-  const auto is_jump = [&](const MeasuredEvent& event) {
-    return event.kind == EventKind::jump && event.specimen == specimen;
-  };
-  return std::ranges::none_of(events, is_jump) || !jumps_in_order(model, events, specimen).empty();
+bool has_jumps_in_order(const SampledCurve& model, const std::vector<MeasuredEvent>& events, std::size_t specimen) {
+  const std::vector<Pair> jumps = jumps_of_model(model, events, specimen);
+  return in_order(jumps).size() == jumps.size();
 }
 
 SampledCurve up_to(const SampledCurve& curve, double displacement) {
@@ -255,7 +270,8 @@ SampledCurve up_to(const SampledCurve& curve, double displacement) {
   }
   part.x.push_back(displacement);
   part.y.push_back(curve.at(displacement));
-  if (curve.first_debonding && curve.first_debonding->x_after <= displacement)
+  if (curve.first_debonding && *curve.first_debonding + 1 < part.x.size() &&
+      curve.x[*curve.first_debonding + 1] <= displacement)
     part.first_debonding = curve.first_debonding;
   return part;
 }

@@ -3,7 +3,7 @@
 // force, and the first debonding, which need not be seen in the force. Pointwise residuals of a curve that jumps are a
 // staircase in the parameters; where it jumps, and between which forces, is not.
 
-#include "postproc/curves/comparison.h"
+#include "postproc/curves/curve_jumps.h"
 
 #include <cstddef>
 #include <limits>
@@ -15,13 +15,16 @@
 namespace pfdm {
 
 enum class EventKind { jump, greatest_force, first_debonding };
+std::string_view name_of(EventKind kind);  ///< "greatest force"
 
 /// What is measured of an event. A jump, and the first debonding, has a displacement and the forces before and after
 /// it, a greatest force has a displacement and the force.
 enum class EventFigure { displacement, force_before, force_after, force };
 std::string_view name_of(EventFigure figure);  ///< "force_before"
 std::string_view unit_of(EventFigure figure);  ///< "m", "N"
-std::string in_words(EventFigure figure);      ///< "force before"
+/// Of its name: "force before".
+std::string in_words(std::string_view name);
+inline std::string in_words(EventFigure figure) { return in_words(name_of(figure)); }
 
 struct MeasuredFigure {
   EventFigure figure = EventFigure::displacement;
@@ -33,10 +36,10 @@ struct MeasuredFigure {
 struct MeasuredEvent {
   EventKind kind = EventKind::jump;
   std::size_t specimen = 0;
-  std::optional<int> number{};  ///< of a jump, along the curve from 1; none: the one that is nearest to `place`
-  double least_fall = 0.1;      ///< in one step, of the largest force: less is no jump
-  double place = 0.0;           ///< displacement at which it was recorded [m]
-  bool is_found = false;        ///< in the rows of the record; otherwise the case states it
+  std::optional<int> number{};       ///< of a jump, along the curve from 1; none: the one that is nearest to `place`
+  double least_fall = fall_of_jump;  ///< in one step, of the largest force: less is no jump
+  double place = 0.0;                ///< displacement at which it was recorded [m]
+  bool is_found = false;             ///< in the rows of the record; otherwise the case states it
   std::vector<MeasuredFigure> figures{};
 
   std::string name() const;  ///< "jump 2", "jump at 155 um", "greatest force", "first debonding"
@@ -79,13 +82,14 @@ ComputedEvent computed_event(const MeasuredEvent& event, const SampledCurve& mod
 double step_at(const SampledCurve& curve, double displacement);
 
 /// The model's curve with its jumps where these are measured. What lies between jumps stays where it is, and goes on
-/// straight to the measured place, with the mean slope of the nearest 2 % of the curve. Unchanged where one of the
-/// jumps is not there, or two of them are the same. Events of other specimens are of no concern.
+/// straight to the measured place, with the mean slope of the nearest 2 % of the curve. Jumps that are not there stay
+/// out of it; of those that are the same jump of the model, or in another order, the nearest is moved. Events of other
+/// specimens are of no concern.
 SampledCurve with_jumps_as_measured(const SampledCurve& model, const std::vector<MeasuredEvent>& events,
                                     std::size_t specimen);
 
-/// Whether with_jumps_as_measured() finds all jumps of the specimen, each another one and in the measured order.
-bool has_jumps_as_measured(const SampledCurve& model, const std::vector<MeasuredEvent>& events, std::size_t specimen);
+/// Whether the jumps of the specimen that the model has are each another one, and in the measured order.
+bool has_jumps_in_order(const SampledCurve& model, const std::vector<MeasuredEvent>& events, std::size_t specimen);
 
 /// Up to this displacement.
 SampledCurve up_to(const SampledCurve& curve, double displacement);

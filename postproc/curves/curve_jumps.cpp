@@ -13,15 +13,14 @@ std::vector<std::size_t> rows_before_jumps(const SampledCurve& curve, double lea
   return rows;
 }
 
-std::vector<double> jumps_of(const SampledCurve& curve) {
-  constexpr double least_fall = 0.1;
+std::vector<double> jumps_of(const SampledCurve& curve, double least_fall) {
   std::vector<double> jumps;
   for (const std::size_t row : rows_before_jumps(curve, least_fall)) jumps.push_back(curve.x[row]);
   return jumps;
 }
 
-JumpAlignment::JumpAlignment(const SampledCurve& from, const SampledCurve& to) {
-  std::vector<double> theirs = jumps_of(from), due = jumps_of(to);
+JumpAlignment::JumpAlignment(const SampledCurve& from, const SampledCurve& to, double least_fall) {
+  std::vector<double> theirs = jumps_of(from, least_fall), due = jumps_of(to, least_fall);
   if (theirs.empty() || theirs.size() != due.size()) return;
   for (std::vector<double>* places : {&theirs, &due}) {
     places->insert(places->begin(), std::min(from.x.front(), to.x.front()));
@@ -40,8 +39,6 @@ SampledCurve JumpAlignment::operator()(SampledCurve curve) const {
     x = to_[k - 1] + (x - from_[k - 1]) * (to_[k] - to_[k - 1]) / (from_[k] - from_[k - 1]);
   };
   std::ranges::for_each(curve.x, move);
-  if (curve.first_debonding)
-    for (double* x : {&curve.first_debonding->x_before, &curve.first_debonding->x_after}) move(*x);
   return curve;
 }
 

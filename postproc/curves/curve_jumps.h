@@ -13,15 +13,17 @@ namespace pfdm {
 /// before each fall.
 std::vector<std::size_t> rows_before_jumps(const SampledCurve& curve, double least_fall);
 
-/// Likewise by more than a tenth: the x before each fall.
-std::vector<double> jumps_of(const SampledCurve& curve);
+inline constexpr double fall_of_jump = 0.1;  ///< if nothing else is said
+
+/// Likewise the x before each fall.
+std::vector<double> jumps_of(const SampledCurve& curve, double least_fall = fall_of_jump);
 
 /// What takes jumps of one curve to those of another, linear between them and up to both ends, which stay; identity
 /// where the numbers of jumps differ or a jump lies at an end.
 class JumpAlignment {
  public:
   JumpAlignment() = default;
-  JumpAlignment(const SampledCurve& from, const SampledCurve& to);
+  JumpAlignment(const SampledCurve& from, const SampledCurve& to, double least_fall = fall_of_jump);
 
   SampledCurve operator()(SampledCurve curve) const;
 

@@ -17,6 +17,9 @@ nlohmann::ordered_json to_json(const std::vector<FittedEvent>& events) {
                                                  {"specimen", event.specimen},
                                                  {"found_in_record", event.is_found},
                                                  {"in_computed_curve", event.is_there},
+                                                 {"offset_m", event.set_up.offset},
+                                                 {"force_offset_N", event.set_up.force_offset},
+                                                 {"compliance_m_per_N", event.set_up.compliance},
                                                  {"figures", nlohmann::ordered_json::array()}});
     for (const FittedEvent::Figure& f : event.figures)
       entry["figures"].push_back({{"name", f.name},
@@ -36,6 +39,9 @@ std::vector<FittedEvent> events_in(const nlohmann::ordered_json& list) {
                       .specimen = e.at("specimen"),
                       .is_found = e.at("found_in_record"),
                       .is_there = e.at("in_computed_curve")};
+    if (e.contains("offset_m"))
+      event.set_up = {
+          .offset = e.at("offset_m"), .force_offset = e.at("force_offset_N"), .compliance = e.at("compliance_m_per_N")};
     for (const auto& f : e.at("figures"))
       event.figures.push_back({.name = f.at("name"),
                                .unit = f.at("unit"),

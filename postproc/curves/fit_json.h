@@ -2,6 +2,7 @@
 // fit.json of every kind of case: what a fit found, how sure it is, and how it came there. What is to be said of all
 // fits belongs in FitReport and write_fit_json(); cases/README.md lists the fields.
 
+#include "postproc/curves/measured_curve.h"
 #include "solver/calibration/calibration_verdict.h"
 
 #include <filesystem>
@@ -109,6 +110,7 @@ struct FittedEvent {
   std::string specimen;
   bool is_found = false;  ///< in the record
   bool is_there = false;  ///< in the fitted curve; otherwise what is computed stands for it
+  SetUp set_up{};         ///< what it adds to the figures: they are those of the record
   std::vector<Figure> figures{};
   double figure(const std::string& name, double Figure::*value) const;  ///< NaN if it has none of this name
 };

@@ -119,6 +119,7 @@ void take_toe(MeasuredCurve& measured, const Toe& toe) {
   for (std::size_t i = first; i < curve.x.size(); ++i) kept.push_back(i);
   curve = rows_of(curve, kept);
   for (double& x : curve.x) x -= line->zero;
+  measured.origin = line->zero;
   measured.done.push_back(fmt::format(
       "toe: the straight part of {} rows, {}, meets zero force at {} (standard error {}), the new origin; {} rows "
       "before it left out",
@@ -171,14 +172,9 @@ SampledCurve as_recorded(const SampledCurve& computed, const SetUp& set_up) {
     const double slope = (computed.y[second] - computed.y[0]) / (computed.x[second] - computed.x[0]);
     add(computed.x[0] - reach, computed.y[0] - slope * reach);
   }
+  if (computed.first_debonding) recorded.first_debonding = recorded.x.size() + *computed.first_debonding;
   for (std::size_t i = 0; i < computed.x.size(); ++i) add(computed.x[i], computed.y[i]);
-  SampledCurve driven = driven_curve(recorded);
-  if (const auto& b = computed.first_debonding) {
-    const auto at = [&](double u, double F) { return u + set_up.offset + set_up.compliance * F; };
-    driven.first_debonding = Between{at(b->x_before, b->y_before), b->y_before + set_up.force_offset,
-                                     at(b->x_after, b->y_after), b->y_after + set_up.force_offset};
-  }
-  return driven;
+  return driven_curve(recorded);
 }
 
 std::vector<double> nearest_not_falling(const std::vector<double>& values) {

@@ -40,7 +40,9 @@ struct MeasuredCurve {
   SampledCurve as_recorded{};  ///< the rows of the file; x may fall
   SampledCurve curve{};        ///< what preparation leaves of it, still with what the set-up adds
   SetUp set_up{};
-  std::vector<std::string> done{};  ///< to its rows, a sentence each
+  double displacement_factor = 1.0, force_factor = 1.0;  ///< of the file's columns; `as_recorded` has them
+  double origin = 0.0;                                   ///< that the toe gives, taken from displacements [m]
+  std::vector<std::string> done{};                       ///< to its rows, a sentence each
 
   /// The curve of the specimen: without what the set-up adds. Noise of the force that the compliance carries into the
   /// displacement is taken out as jitter.

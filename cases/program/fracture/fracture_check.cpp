@@ -5,7 +5,8 @@
 #include "cases/program/session/terminal/stopwatch.h"
 #include "cases/program/studies/fit/curve_fit.h"
 #include "mesh/quality.h"
-#include "postproc/curves/curve_misfit.h"
+#include "physics/quantity_text.h"
+#include "postproc/curves/event_rows.h"
 #include "postproc/files/folder_lock.h"
 #include "solver/fracture/bending_words.h"
 #include "solver/fracture/fracture_run.h"
@@ -42,15 +43,31 @@ void check_fit(const FractureProgram& program, Log& log) {
     log.say(fmt::format("fit of {} between {} and {}", parameter.in_case.name,
                         parameter.in_case.shown(parameter.in_fit.lower),
                         parameter.in_case.shown(parameter.in_fit.upper)));
-  if (program.experiment) {
-    require_in_a_stage(*program.fit, program.experiment->specimens, program.experiment->events);
-    for (const MeasuredEvent& event : program.experiment->events)
+  if (program.experiment)
+    for (const MeasuredEvent& event : events_of_fit(program))
       log.say(event_words(event, program.experiment->specimens[event.specimen].curve.name));
-  }
   log.say(fit_words(*program.fit));
 }
 
 }  // namespace
+
+std::vector<MeasuredEvent> events_of_fit(const FractureProgram& program) {
+  const ExperimentSettings& experiment = *program.experiment;
+  std::vector<MeasuredEvent> events = events_in_records(experiment.events, experiment.specimens);
+  require_in_a_stage(*program.fit, experiment.specimens, events);
+  const auto full = full_displacement(program.fracture);
+  for (std::size_t k = 0; full && k < events.size(); ++k) {
+    const MeasuredCurve& specimen = experiment.specimens[events[k].specimen];
+    const double place = displacement_of_specimen(specimen, events[k].place),
+                 end = *full * program.fracture.loading.end;
+    if (end > 0.0 && place > end)
+      throw experiment.events[k].where.error(
+          fmt::format("{} of \"{}\", at {} of the specimen, lies beyond the end of the load, {}: load further, or "
+                      "leave it out",
+                      events[k].name(), specimen.curve.name, quantity_text(place, "m"), quantity_text(end, "m")));
+  }
+  return events;
+}
 
 Mesh made_mesh(const FractureProgram& program, Log& log) {
   for (const std::string& remark : program.fracture.materials.remarks) log.say(remark);

@@ -14,6 +14,10 @@ FractureRun made_run(const FractureProgram& program, const Mesh& mesh, Log& log)
 /// Warns of interfaces whose cells are too large for their laws.
 void warn_of_interfaces(const FractureRun& run, Log& log);
 
+/// Events of the measured curves, as the records have them. Throws InputError as events_in_records(), and for one that
+/// no stage of the fit has or that the load does not reach.
+std::vector<MeasuredEvent> events_of_fit(const FractureProgram& program);
+
 /// Says what would run: pfdm check.
 void check_fracture(const FractureProgram& program, Session& session);
 

@@ -146,15 +146,15 @@ void fit(const FractureProgram& program, Session& session) {
   if (!program.experiment)
     throw InputError(fmt::format("{}: it names no [experiment] that the curve could be fitted to", program.name));
   const auto read = [component = program.fracture.output.curve.component](const std::filesystem::path& results) {
-    SampledCurve curve = computed_curve(read_curve(results / curve_file), component);
-    curve.first_debonding = first_debonding_in(results);
-    return curve;
+    const std::vector<CurveRow> rows = read_curve(results / curve_file);
+    return computed_curve(rows, component, first_debonding_in(results, rows, component));
   };
   const ExperimentSettings& experiment = *program.experiment;
+  const std::vector<MeasuredEvent> events = events_of_fit(program);
   fit_curve({.file = program.file,
              .settings = *program.fit,
              .specimens = experiment.specimens,
-             .events = experiment.events,
+             .events = events,
              .straight_from = experiment.stiffness_from,
              .straight_to = experiment.stiffness_to,
              .set_ups = [](const CaseFile& file) { return read_set_ups(file.config.root()); },

@@ -98,17 +98,33 @@ TEST(CurveEvents, HoldTheFirstDebondingWithWhatTheSetUpAdds) {
   const MeasuredEvent event{.kind = EventKind::first_debonding, .place = 4.0};
   EXPECT_FALSE(computed_event(event, curve).is_there);
   EXPECT_EQ(computed_event(event, curve).displacement, curve.x.back());
-  curve.first_debonding = Between{4.0, 4.0, 4.1, 4.1};
+  curve.first_debonding = static_cast<std::size_t>(std::ranges::lower_bound(curve.x, 4.0 - 1e-9) - curve.x.begin());
   const ComputedEvent computed = computed_event(event, curve);
-  EXPECT_DOUBLE_EQ(computed.displacement, 4.05);
+  EXPECT_NEAR(computed.displacement, 4.05, 1e-9);
   EXPECT_NEAR(computed.step, 0.1, 1e-12);
-  EXPECT_DOUBLE_EQ(computed.force_after, 4.1);
+  EXPECT_NEAR(computed.force_after, 4.1, 1e-9);
   const pfdm::SetUp set_up{.offset = 1.0, .force_offset = 2.0, .compliance = 0.5};
   const ComputedEvent recorded = computed_event(event, as_recorded(curve, set_up));
-  EXPECT_DOUBLE_EQ(recorded.displacement, 1.0 + 1.5 * 4.05);
-  EXPECT_DOUBLE_EQ(recorded.force_before, 6.0);
+  EXPECT_NEAR(recorded.displacement, 1.0 + 1.5 * 4.05, 1e-9);
+  EXPECT_NEAR(recorded.force_before, 6.0, 1e-9);
   EXPECT_TRUE(computed_event(event, up_to(curve, 4.2)).is_there);
   EXPECT_FALSE(computed_event(event, up_to(curve, 4.05)).is_there);
+}
+
+// The followed curve falls back from 2 to 1 and comes back to 2 at a force of 1.5. What debonds on the way debonds, in
+// the test, in the drop at 2.
+TEST(CurveEvents, HoldTheFirstDebondingOfACurveThatFallsBack) {
+  for (const std::size_t row : {1, 2}) {
+    SampledCurve followed{.name = "", .x = {0, 2, 1, 3, 4}, .y = {0, 4, 1, 2, 3}};
+    followed.first_debonding = row;
+    const ComputedEvent computed = computed_event({.kind = EventKind::first_debonding}, driven_curve(followed));
+    EXPECT_TRUE(computed.is_there);
+    EXPECT_EQ(computed.displacement, 2.0);
+    EXPECT_EQ(computed.force_before, 4.0);
+    EXPECT_EQ(computed.force_after, 1.5);
+  }
+  SampledCurve ended{.name = "", .x = {0, 2, 1}, .y = {0, 4, 1}, .first_debonding = 1};
+  EXPECT_FALSE(computed_event({.kind = EventKind::first_debonding}, driven_curve(ended)).is_there);
 }
 
 TEST(CurveEvents, MoveTheJumpAndNothingElse) {
@@ -123,13 +139,31 @@ TEST(CurveEvents, MoveTheJumpAndNothingElse) {
   }
 }
 
-TEST(CurveEvents, LeaveACurveAloneWhoseJumpsAreOthers) {
-  const SampledCurve model = curve_with(6.0);
-  const MeasuredEvent near = jump_measured_at(5.0, 0.1), other = jump_measured_at(8.0, 0.1);
-  EXPECT_EQ(with_jumps_as_measured(model, {near, other}, 0).x, model.x);
-  EXPECT_FALSE(has_jumps_as_measured(model, {near, other}, 0));
-  EXPECT_TRUE(has_jumps_as_measured(model, {near}, 0));
-  EXPECT_EQ(with_jumps_as_measured(model, {near}, 1).x, model.x);
+/// With a second jump, of 3, at 8.
+SampledCurve curve_with_two() {
+  SampledCurve curve = curve_with(6.0);
+  for (std::size_t i = 0; i < curve.x.size(); ++i)
+    if (curve.x[i] > 8.0 + 1e-9) curve.y[i] -= fall;
+  return curve;
+}
+
+TEST(CurveEvents, PartTheCurveWhereItHasThem) {
+  const MeasuredEvent near = jump_measured_at(5.0, 0.1), other = jump_measured_at(8.5, 0.1);
+  const SampledCurve both = with_jumps_as_measured(curve_with_two(), {near, other}, 0),
+                     one = with_jumps_as_measured(curve_with(6.0), {near, other}, 0);
+  EXPECT_NEAR(both.at(5.5), 2.75, 1e-6);
+  EXPECT_NEAR(both.at(8.4), 4.2, 1e-6);
+  EXPECT_NEAR(both.at(8.6), 1.3, 1e-6);
+  // The second one has become too small: the first is parted all the same, and it cannot be both.
+  EXPECT_NEAR(one.at(5.5), 2.75, 1e-6);
+  EXPECT_NEAR(one.at(8.6), 4.3, 1e-6);
+  EXPECT_FALSE(has_jumps_in_order(curve_with(6.0), {near, other}, 0));
+  EXPECT_TRUE(has_jumps_in_order(curve_with_two(), {near, other}, 0));
+  EXPECT_TRUE(has_jumps_in_order(curve_with(6.0), {near}, 0));
+  MeasuredEvent second = other;
+  second.number = 2;
+  EXPECT_TRUE(has_jumps_in_order(curve_with(6.0), {near, second}, 0));
+  EXPECT_EQ(with_jumps_as_measured(curve_with(6.0), {near}, 1).x, curve_with(6.0).x);
 }
 
 MeasuredPoints points_with(const MeasuredEvent& event) {

@@ -43,6 +43,15 @@ TEST(CurveJumps, AreMovedToThoseOfAnotherCurve) {
   EXPECT_EQ(moved.x.back(), from.x.back());
 }
 
+// A fall of 1 in 6 stands in one curve alone: with falls of a tenth the numbers of jumps differ.
+TEST(CurveJumps, AreMovedByTheFallThatMakesAJump) {
+  SampledCurve from = falling_at({3.05}, 2.0), to = falling_at({3.55}, 2.0);
+  for (std::size_t i = 0; i < to.x.size(); ++i)
+    if (to.x[i] > 7.0) to.y[i] -= 1.0;
+  EXPECT_EQ(JumpAlignment(from, to)(from).x, from.x);
+  EXPECT_THAT(jumps_of(JumpAlignment(from, to, 0.2)(from), 0.2), ElementsAre(DoubleNear(3.55, 1e-12)));
+}
+
 TEST(CurveJumps, StayWhereTheOtherCurveHasOthers) {
   const SampledCurve from = falling_at({3.05, 6.05}, 2.0);
   EXPECT_EQ(JumpAlignment(from, falling_at({3.05}, 2.0))(from).x, from.x);

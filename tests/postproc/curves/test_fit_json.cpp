@@ -75,6 +75,21 @@ TEST(FitJson, ComesBackAsItWasWritten) {
   EXPECT_EQ(own->ogden->terms[0].alpha, 2.0);
 }
 
+TEST(FitJson, TellsOfEventsAndTheirSetUp) {
+  const TemporaryFolder folder;
+  FitReport report = example();
+  report.events = {{.name = "jump 1",
+                    .specimen = "one",
+                    .is_there = true,
+                    .set_up = {.offset = 1e-6, .force_offset = 0.5, .compliance = 2e-7},
+                    .figures = {{.name = "displacement", .unit = "m", .computed = 3e-6}}}};
+  write_fit_json(folder / "fit.json", report);
+  const FitReport back = read_fit_json(folder / "fit.json");
+  ASSERT_EQ(back.events.size(), 1U);
+  EXPECT_EQ(back.events[0].set_up, report.events[0].set_up);
+  EXPECT_EQ(back.events[0].figure("displacement", &FittedEvent::Figure::computed), 3e-6);
+}
+
 TEST(FitJson, HasTheSameFieldsForEveryKind) {
   FitReport report = example();
   std::vector<std::set<std::string>> fields;

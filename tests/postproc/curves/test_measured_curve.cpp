@@ -107,6 +107,7 @@ SampledCurve curve_with_toe() {
 TEST(MeasuredCurve, ToeIsCompensatedByTheStraightPart) {
   for (const Toe& toe : {Toe{.from = 3.0, .to = 11.0}, Toe{.from = 2.1, .to = 3.7, .of_force = false}}) {
     const MeasuredCurve measured = prepared(curve_with_toe(), {.toe = toe}, {});
+    EXPECT_NEAR(measured.origin, 1.5, 1e-9);
     ASSERT_FALSE(measured.curve.x.empty());
     EXPECT_NEAR(measured.curve.x.front(), measured.curve.y.front() / 5.0, 1e-12);
     EXPECT_NEAR(measured.curve.x.back(), 4.0 - 1.5, 1e-12);

@@ -8,7 +8,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <string>
+#include <utility>
 
 namespace pfdm {
 namespace {
@@ -18,10 +20,11 @@ constexpr Range fall_range{0.0, 1.0, true, "above 0 and below 1"};
 
 KeyTable measured_keys(std::string_view name, const Dimension& due) {
   using namespace keys;
-  return {.name = name,
-          .sentence = "A measured value with its uncertainty.",
-          .keys = {{"value", quantity(due), "", "Value that was measured, as the record has it."},
-                   {"deviation", quantity(due, range::positive), "", "Standard deviation of the value."}}};
+  return {
+      .name = name,
+      .sentence = "A measured value with its uncertainty.",
+      .keys = {{"value", quantity(due), "", "Value as the file of the record has it, before its factor and the toe."},
+               {"deviation", quantity(due, range::positive), "", "Standard deviation of the value."}}};
 }
 const KeyTable& measured_length_keys() {
   static const KeyTable table = measured_keys("measured length", dimension::length);
@@ -64,6 +67,40 @@ void read_figures(const ConfigTable& table, MeasuredEvent& event) {
   event.kind == EventKind::greatest_force ? read(figures_of_greatest) : read(figures_of_jump);
 }
 
+bool has_displacement(const MeasuredEvent& event) {
+  return std::ranges::count(event.figures, EventFigure::displacement, &MeasuredFigure::figure) > 0;
+}
+
+void require_displacement(const ConfigTable& table, const MeasuredEvent& event) {
+  if (event.kind == EventKind::greatest_force && event.figures.empty())
+    throw table.error("state \"force\", \"displacement\" or both: the largest of noisy rows is larger than the force");
+  if (event.kind == EventKind::greatest_force || has_displacement(event)) return;
+  if (event.kind == EventKind::first_debonding)
+    throw table.error("state its \"displacement\": no record of the force tells what debonds");
+  if (!event.figures.empty())
+    throw table.error("a jump with forces needs its displacement, too; without any of them it is found in the record");
+}
+
+StatedEvent read_event(const ConfigTable& table, const std::vector<MeasuredCurve>& specimens) {
+  MeasuredEvent event{.specimen = read_specimen_of(table, specimens)};
+  read_stored(table, event);
+  if (table.choice("event") == "greatest_force") event.kind = EventKind::greatest_force;
+  if (table.choice("event") == "first_debonding") event.kind = EventKind::first_debonding;
+  read_figures(table, event);
+  require_displacement(table, event);
+  return {.event = std::move(event), .where = table};
+}
+
+/// What is stated of the file's numbers, as its rows were made those of the curve.
+void prepare_like_rows(const MeasuredCurve& specimen, MeasuredEvent& event) {
+  for (MeasuredFigure& figure : event.figures) {
+    const bool is_displacement = figure.figure == EventFigure::displacement;
+    const double factor = is_displacement ? specimen.displacement_factor : specimen.force_factor;
+    figure.value = factor * figure.value - (is_displacement ? specimen.origin : 0.0);
+    figure.deviation *= std::abs(factor);
+  }
+}
+
 std::string number_text(const MeasuredEvent& event, std::size_t n) {
   if (!event.number || n == 0) return "no such jump";
   return fmt::format("{} such jump{}, no jump {}", n, n == 1 ? "" : "s", *event.number);
@@ -88,39 +125,38 @@ void find_jump(const ConfigTable& table, const SampledCurve& record, MeasuredEve
 }
 
 /// Where the record has it.
-void place_event(const ConfigTable& table, const SampledCurve& record, MeasuredEvent& event) {
+void place_event(const ConfigTable& table, const MeasuredCurve& specimen, MeasuredEvent& event) {
+  const SampledCurve& record = specimen.curve;
   const auto displacement = std::ranges::find(event.figures, EventFigure::displacement, &MeasuredFigure::figure);
-  if (displacement != event.figures.end()) {
-    event.place = displacement->value;
-    if (event.place < record.x.front() || event.place > record.x.back())
-      throw table.at("displacement")
-          .error(fmt::format("\"{}\" was recorded between {} and {}", record.name, quantity_text(record.x.front(), "m"),
-                             quantity_text(record.x.back(), "m")));
-  } else if (event.kind == EventKind::first_debonding) {
-    throw table.error("a first debonding with forces needs its displacement, too");
-  } else if (event.kind == EventKind::jump) {
-    throw table.error("a jump with forces needs its displacement, too; without any of them it is found in the record");
-  } else {
+  if (displacement == event.figures.end()) {
     event.place = record.x[static_cast<std::size_t>(std::ranges::max_element(record.y) - record.y.begin())];
+    return;
   }
+  event.place = displacement->value;
+  if (event.place >= record.x.front() && event.place <= record.x.back()) return;
+  const auto in_file = [&](double x) { return (x + specimen.origin) / specimen.displacement_factor; };
+  throw table.at("displacement")
+      .error(fmt::format("\"{}\" was recorded between {} and {}{}", record.name,
+                         quantity_text(in_file(record.x.front()), "m"), quantity_text(in_file(record.x.back()), "m"),
+                         specimen.displacement_factor == 1.0 ? "" : " in its file, before the factor"));
 }
 
-MeasuredEvent read_event(const ConfigTable& table, const std::vector<MeasuredCurve>& specimens) {
-  MeasuredEvent event{.specimen = read_specimen_of(table, specimens)};
-  read_stored(table, event);
-  if (table.choice("event") == "greatest_force") event.kind = EventKind::greatest_force;
-  if (table.choice("event") == "first_debonding") event.kind = EventKind::first_debonding;
-  const SampledCurve& record = specimens[event.specimen].curve;
-  read_figures(table, event);
-  if (!event.figures.empty())
-    place_event(table, record, event);
-  else if (event.kind == EventKind::jump)
-    find_jump(table, record, event);
-  else if (event.kind == EventKind::first_debonding)
-    throw table.error("state its \"displacement\": no record of the force tells what debonds");
-  else
-    throw table.error("state \"force\", \"displacement\" or both: the largest of noisy rows is larger than the force");
-  return event;
+void require_known_noise(const ConfigTable& table, const std::vector<MeasuredCurve>& specimens) {
+  for (const MeasuredCurve& specimen : specimens)
+    if (specimen.curve.deviation.empty())
+      throw table.error(fmt::format(
+          "events have standard deviations of their own, and \"{}\" has none: with what weight they count beside its "
+          "rows is not known; give [[experiment.specimens]] deviation",
+          specimen.curve.name));
+  table.in_context([&] {
+    require_deviations(specimens);
+    return true;
+  });
+}
+
+bool is_same(const MeasuredEvent& a, const MeasuredEvent& b) {
+  if (a.kind != b.kind || a.specimen != b.specimen) return false;
+  return a.kind != EventKind::jump || a.place == b.place || (a.number && a.number == b.number);
 }
 
 }  // namespace
@@ -133,13 +169,14 @@ const KeyTable& event_keys() {
       .keys = {{"event", choice("event of a curve", {"jump", "greatest_force", "first_debonding"}), "",
                 "What happens: the force falls at once, or is the greatest, or something debonds for the first time."},
                {"specimen", text("name"), "the only one", "Specimen in whose test it happened."},
-               of_jumps(stored<&MeasuredEvent::number>("number", whole(number_range),
-                                                       "Number of the jump along the curve, measured and computed.",
-                                                       "the nearest one; of those to be found the largest")),
+               of_jumps(stored<&MeasuredEvent::number>(
+                   "number", whole(number_range),
+                   "Number of the jump along the curve, measured and computed, of those with least_fall.",
+                   "the nearest one; of those to be found the largest")),
                of_jumps(stored<&MeasuredEvent::least_fall>(
                    "least_fall", number(fall_range),
                    "Share of the largest force by which the force falls in one step of a jump.")),
-               {"displacement", keys::table(measured_length_keys), "found in the record",
+               {"displacement", keys::table(measured_length_keys), "of a jump found in the record; of others no datum",
                 "Displacement of the event, with its standard deviation."},
                {"force_before", keys::table(measured_force_keys), "no datum",
                 "Force right before the jump or the debonding.", "jump first_debonding"},
@@ -150,25 +187,28 @@ const KeyTable& event_keys() {
   return table;
 }
 
-std::vector<MeasuredEvent> read_events(const ConfigTable& experiment, const std::vector<MeasuredCurve>& specimens) {
+std::vector<StatedEvent> read_events(const ConfigTable& experiment, const std::vector<MeasuredCurve>& specimens) {
+  std::vector<StatedEvent> events;
+  for (const ConfigTable& table : experiment.tables("events")) events.push_back(read_event(table, specimens));
+  return events;
+}
+
+std::vector<MeasuredEvent> events_in_records(const std::vector<StatedEvent>& stated,
+                                             const std::vector<MeasuredCurve>& specimens) {
   std::vector<MeasuredEvent> events;
-  for (const ConfigTable& table : experiment.tables("events")) {
-    for (const MeasuredCurve& specimen : specimens)
-      if (specimen.curve.deviation.empty())
-        throw table.error(fmt::format(
-            "events have standard deviations of their own, and \"{}\" has none: with what weight they count beside its "
-            "rows is not known; give [[experiment.specimens]] deviation",
-            specimen.curve.name));
-    table.in_context([&] {
-      require_deviations(specimens);
-      return true;
-    });
-    events.push_back(read_event(table, specimens));
-    if (events.back().kind == EventKind::jump)
-      for (std::size_t k = 0; k + 1 < events.size(); ++k)
-        if (events[k].kind == EventKind::jump && events[k].specimen == events.back().specimen &&
-            (events[k].place == events.back().place || (events[k].number && events[k].number == events.back().number)))
-          throw table.error("this jump is named twice");
+  for (const auto& [as_stated, table] : stated) {
+    require_known_noise(table, specimens);
+    MeasuredEvent event = as_stated;
+    const MeasuredCurve& specimen = specimens[event.specimen];
+    if (event.figures.empty()) {
+      find_jump(table, specimen.curve, event);
+    } else {
+      prepare_like_rows(specimen, event);
+      place_event(table, specimen, event);
+    }
+    if (std::ranges::any_of(events, [&](const MeasuredEvent& other) { return is_same(other, event); }))
+      throw table.error(fmt::format("this {} is named twice", name_of(event.kind)));
+    events.push_back(std::move(event));
   }
   return events;
 }

@@ -60,6 +60,8 @@ std::string read_name_of_curve(const ConfigTable& table) {
   return name.line();
 }
 
+double factor_of(const ConfigTable& column) { return column.number("factor", 1.0); }
+
 /// { column, unit, factor }: times the factor, and without one times `otherwise`.
 std::vector<double> read_values(const ConfigTable& table, const CsvTable& file, const Dimension& due,
                                 double otherwise = 1.0) {
@@ -78,8 +80,7 @@ SampledCurve read_curve_of(const ConfigTable& table, const std::filesystem::path
                      .y = read_values(table.table(quantity), file, due)};
   std::vector<std::vector<double>*> used{&curve.x, &curve.y};
   if (table.has("deviation")) {
-    const double of_quantity = table.table(quantity).number("factor", 1.0);
-    curve.deviation = read_values(table.table("deviation"), file, due, std::abs(of_quantity));
+    curve.deviation = read_values(table.table("deviation"), file, due, std::abs(factor_of(table.table(quantity))));
     used.push_back(&curve.deviation);
   }
   leave_out_gaps(table, used);
@@ -96,7 +97,10 @@ MeasuredCurve read_specimen(const ConfigTable& table, const ConfigTable& of_all,
     throw table.at("force").error("all forces are zero; there is nothing to compare with");
   const Preparation preparation = read_preparation(keys);
   const SetUp set_up = read_set_up(keys);
-  return table.at("displacement").in_context([&] { return prepared(recorded, preparation, set_up); });
+  MeasuredCurve specimen = table.at("displacement").in_context([&] { return prepared(recorded, preparation, set_up); });
+  specimen.displacement_factor = factor_of(table.table("displacement"));
+  specimen.force_factor = factor_of(table.table("force"));
+  return specimen;
 }
 
 MeasuredAngle read_angle(const ConfigTable& table, const std::filesystem::path& directory) {

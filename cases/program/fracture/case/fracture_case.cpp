@@ -119,18 +119,6 @@ void check_names(const FractureCase& fracture, std::span<const std::string> regi
   fracture.curve_patch->one_of(patches, "patch of the mesh");
 }
 
-/// The displacement of the curve's patch along its component at load parameter 1 [m], where it is reached linearly and
-/// is not zero.
-std::optional<double> full_displacement(const FractureCase& fracture) {
-  const CurveSettings& curve = fracture.output.curve;
-  for (const BoundarySettings& boundary : fracture.boundary) {
-    if (boundary.condition.patch != curve.patch) continue;
-    const auto full = boundary.displacement_at_full_load[curve.component];
-    if (full && *full != 0.0) return full;
-  }
-  return std::nullopt;
-}
-
 /// The load parameter at which the curve's patch has been displaced by `entry`.
 double load_at_displacement(const ConfigValue& entry, const FractureCase& fracture) {
   if (fracture.box)
@@ -220,6 +208,16 @@ void give_heat(FractureCase& fracture) {
 }
 
 }  // namespace
+
+std::optional<double> full_displacement(const FractureCase& fracture) {
+  const CurveSettings& curve = fracture.output.curve;
+  for (const BoundarySettings& boundary : fracture.boundary) {
+    if (boundary.condition.patch != curve.patch) continue;
+    const auto full = boundary.displacement_at_full_load[curve.component];
+    if (full && *full != 0.0) return full;
+  }
+  return std::nullopt;
+}
 
 FractureCase read_fracture_case(const ConfigTable& root, const std::filesystem::path& case_directory, MeshOf mesh) {
   root.with_keys(fracture_keys());

@@ -65,6 +65,10 @@ struct FractureCase {
   std::optional<ConfigTable> file;                ///< likewise
 };
 
+/// The displacement of the curve's patch along its component at load parameter 1 [m], where it is reached linearly and
+/// is not zero.
+std::optional<double> full_displacement(const FractureCase& fracture);
+
 /// Whose mesh a case is to run on: what its [mesh] makes, or one that the caller has.
 enum class MeshOf { the_case, the_caller };
 

@@ -91,8 +91,9 @@ void say_preparation(const ExperimentSettings& experiment, const SampledCurve& m
 
 }  // namespace
 
-SampledCurve computed_curve(const std::vector<CurveRow>& rows, int component) {
-  SampledCurve curve{.name = "computed", .x = {}, .y = {}};
+SampledCurve computed_curve(const std::vector<CurveRow>& rows, int component,
+                            std::optional<std::size_t> first_debonding) {
+  SampledCurve curve{.name = "computed", .x = {}, .y = {}, .first_debonding = first_debonding};
   for (const CurveRow& row : rows) {
     curve.x.push_back(row.displacement);
     curve.y.push_back(row.force[component]);
@@ -100,14 +101,16 @@ SampledCurve computed_curve(const std::vector<CurveRow>& rows, int component) {
   return driven_curve(curve);
 }
 
-std::optional<Between> first_debonding_in(const std::filesystem::path& results) {
+std::optional<std::size_t> first_debonding_in(const std::filesystem::path& results, const std::vector<CurveRow>& rows,
+                                              int component) {
   const auto summary = read_summary(results / summary_file);
   if (!summary) return std::nullopt;
-  const auto figure = [&](const char* name) { return summary->number(fmt::format("first_debonding_{}", name)); };
-  const Between step{figure("displacement_m"), figure("force_N"), figure("displacement_after_m"),
-                     figure("force_after_N")};
-  if (!std::isfinite(step.x_before) || !std::isfinite(step.x_after)) return std::nullopt;
-  return step;
+  const double displacement = summary->number("first_debonding_displacement_m"),
+               force = summary->number("first_debonding_force_N");
+  const auto row = std::ranges::find_if(
+      rows, [&](const CurveRow& r) { return r.displacement == displacement && r.force[component] == force; });
+  if (row == rows.end()) return std::nullopt;
+  return static_cast<std::size_t>(row - rows.begin());
 }
 
 SampledCurve computed_angle(const ExperimentSettings& experiment, const std::vector<CurveRow>& rows,

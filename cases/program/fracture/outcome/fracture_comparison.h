@@ -15,9 +15,12 @@
 namespace pfdm {
 
 /// Force over displacement as a test that is driven by its displacement would show it.
-SampledCurve computed_curve(const std::vector<CurveRow>& rows, int component);
-/// Between which displacements and forces something debonded first, as summary.json there says.
-std::optional<Between> first_debonding_in(const std::filesystem::path& results);
+/// `first_debonding`: the row behind which something debonds first.
+SampledCurve computed_curve(const std::vector<CurveRow>& rows, int component,
+                            std::optional<std::size_t> first_debonding = std::nullopt);
+/// That row, as summary.json there says; nothing where nothing debonds, or the row is not there.
+std::optional<std::size_t> first_debonding_in(const std::filesystem::path& results, const std::vector<CurveRow>& rows,
+                                              int component);
 
 /// The debonding angle [rad] at the pole, and of the surface, that the experiment's angles are of; it has one at least.
 /// Throws InputError for a surface that the record does not have.

@@ -3,6 +3,7 @@
 #include "cases/program/fracture/page/posterior_charts.h"
 #include "cases/program/session/fit_verdict.h"
 #include "cases/program/session/report_parts.h"
+#include "postproc/curves/curve_events.h"
 #include "postproc/files/csv_table.h"
 
 #include <fmt/format.h>
@@ -38,13 +39,11 @@ std::string posterior_text(const FittedParameter& p) {
                      between_text(p.posterior->lower, p.posterior->upper, p.unit));
 }
 
-/// Events of the specimen: jumps between two forces, or a point each.
-void mark_events(const std::vector<FittedEvent>& events, const std::string& specimen, const DisplayUnit& x,
-                 const DisplayUnit& y, Chart& chart) {
+/// Jumps between two forces, or a point each, as the curves beside them without what the set-up adds.
+void mark_events(const std::vector<FittedEvent>& events, const DisplayUnit& x, const DisplayUnit& y, Chart& chart) {
   Series measured{.label = "events, measured", .x = {}, .y = {}, .style = SeriesStyle::line_with_points, .colour = 3};
   Series fitted{.label = "events, fitted", .x = {}, .y = {}, .style = SeriesStyle::line_with_points, .colour = 2};
   for (const FittedEvent& event : events) {
-    if (event.specimen != specimen) continue;
     using Figure = FittedEvent::Figure;
     const auto add = [&](Series& series, double Figure::*value) {
       const auto known = [&](const std::string& name) {
@@ -57,8 +56,10 @@ void mark_events(const std::vector<FittedEvent>& events, const std::string& spec
       }
       for (const char* force : {"force_before", "force_after", "force"})
         if (const double at = known(force); std::isfinite(at)) {
-          series.x.push_back(x.factor * known("displacement"));
-          series.y.push_back(y.factor * at);
+          const double force_of_specimen = at - event.set_up.force_offset;
+          series.x.push_back(
+              x.factor * (known("displacement") - event.set_up.offset - event.set_up.compliance * force_of_specimen));
+          series.y.push_back(y.factor * force_of_specimen);
         }
     };
     add(measured, &Figure::measured);
@@ -80,7 +81,7 @@ Chart curves_chart(const FitReport& fit, const ExperimentMisfit& experiment, con
       .series = {{.label = "measured", .x = at, .y = in_unit(measured, y), .style = SeriesStyle::points, .colour = 7},
                  {.label = "first guess", .x = at, .y = in_unit(first, y), .style = SeriesStyle::dashed, .colour = 1},
                  {.label = "fitted", .x = at, .y = in_unit(fitted, y), .colour = 0}}};
-  mark_events(fit.events, experiment.name, x, y, chart);
+  mark_events(fit.events, x, y, chart);
   return chart;
 }
 
@@ -110,10 +111,8 @@ Table events_table(const std::vector<FittedEvent>& events) {
   for (const FittedEvent& event : events)
     for (const FittedEvent::Figure& f : event.figures) {
       if (!std::isfinite(f.measured)) continue;
-      std::string words = f.name;
-      std::ranges::replace(words, '_', ' ');
       table.rows.push_back({fmt::format("{} of {}{}", event.name, event.specimen, event.is_there ? "" : ", not fitted"),
-                            std::move(words), value_text(f.measured, f.unit), value_text(f.deviation, f.unit),
+                            in_words(f.name), value_text(f.measured, f.unit), value_text(f.deviation, f.unit),
                             value_text(f.computed, f.unit),
                             std::isfinite(f.residual) ? fmt::format("{:+.2f}", f.residual) : "no datum"});
     }

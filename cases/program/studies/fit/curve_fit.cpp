@@ -35,6 +35,14 @@ bool is_as_exact(const MeasuredEvent& a, const MeasuredEvent& b) {
   return std::abs(a.deviation_of_place() - b.deviation_of_place()) <= noticeable * b.deviation_of_place();
 }
 
+/// By which curves of the coarse case are aligned: the least of the jumps that are events.
+double least_fall_of(const std::vector<MeasuredEvent>& events) {
+  std::optional<double> least;
+  for (const MeasuredEvent& event : events)
+    if (event.kind == EventKind::jump) least = std::min(least.value_or(event.least_fall), event.least_fall);
+  return least.value_or(fall_of_jump);
+}
+
 void start_at(const std::vector<double>& values, FitProblem& problem) {
   for (std::size_t j = 0; j < values.size(); ++j) problem.parameters[j].start = values[j];
 }
@@ -128,7 +136,7 @@ CurveFit::FittedPoints CurveFit::fit_points(const CurveFitStage& stage, const Me
 void CurveFit::align(const std::vector<double>& values, std::optional<double> until) {
   alignment_ = {};
   const auto rough = coarse_model_->respond(values, until);
-  if (rough) alignment_ = JumpAlignment(*rough, curve_at(values, until));
+  if (rough) alignment_ = JumpAlignment(*rough, curve_at(values, until), least_fall_of(job_.events));
 }
 
 void CurveFit::weigh_specimens(const CurveFitStage& stage, std::optional<double> until, const FitSettings& settings,
@@ -242,7 +250,6 @@ std::vector<CurveFitStage>::const_iterator CurveFit::last_stage_of(std::size_t p
 
 void fit_curve(const CurveFitJob& job, Session& session) {
   require_start_within_bounds(job.settings.where, job.settings.parameters);
-  require_in_a_stage(job.settings, job.specimens, job.events);
   const FolderLock lock(session.results);
   session.log.say(head_line(session, fmt::format("fit of {}: {}", job.name, job.title)));
   session.log.open_file(session.results / "fit.log", true);

@@ -123,10 +123,7 @@ void CurveFit::doubt_events(const DoneStage& done, const SampledCurve& fitted, F
     }
   }
   for (std::size_t s = 0; s < curves.size(); ++s)
-    if (!has_jumps_as_measured(curves[s], done.points.events, s) &&
-        std::ranges::all_of(done.points.events, [&](const MeasuredEvent& event) {
-          return event.specimen != s || computed_event(event, curves[s]).is_there;
-        }))
+    if (!has_jumps_in_order(curves[s], done.points.events, s))
       question(found, fmt::format("two events of {} are the same jump of the fitted curve, or in another order: give "
                                   "them a number",
                                   job_.specimens[s].curve.name));
@@ -142,13 +139,15 @@ std::vector<FittedEvent> CurveFit::fitted_events(const SampledCurve& fitted) con
   constexpr EventFigure of_jump[] = {EventFigure::displacement, EventFigure::force_before, EventFigure::force_after};
   constexpr EventFigure of_greatest[] = {EventFigure::displacement, EventFigure::force};
   std::vector<FittedEvent> events;
+  const std::vector<SetUp> set_ups = set_ups_at(values_);
   for (const MeasuredEvent& event : events_) {
     const ModelCurves curves = as_recorded_by_all(fitted, values_, end_of_runs(last_stage_of(event)));
     const ComputedEvent computed = computed_event(event, curves[event.specimen]);
     FittedEvent told{.name = event.name(),
                      .specimen = job_.specimens[event.specimen].curve.name,
                      .is_found = event.is_found,
-                     .is_there = computed.is_there};
+                     .is_there = computed.is_there,
+                     .set_up = set_ups[event.specimen]};
     const auto add = [&](EventFigure figure) {
       FittedEvent::Figure& f = told.figures.emplace_back(FittedEvent::Figure{
           .name = std::string(name_of(figure)), .unit = std::string(unit_of(figure)), .computed = computed.of(figure)});

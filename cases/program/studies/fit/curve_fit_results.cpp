@@ -119,9 +119,8 @@ void say_event(const FittedEvent& event, Log& log) {
   for (const FittedEvent::Figure& f : event.figures)
     if (std::isfinite(f.residual))
       log.say(fmt::format("{} of {}: {} {}, measured {}, {:+.2f} standard deviations{}", event.name, event.specimen,
-                          f.name == "displacement" ? "displacement" : "force", quantity_text(f.computed, f.unit),
-                          quantity_text(f.measured, f.unit), f.residual,
-                          event.is_there ? "" : " (it is not in the fitted curve)"));
+                          in_words(f.name), quantity_text(f.computed, f.unit), quantity_text(f.measured, f.unit),
+                          f.residual, event.is_there ? "" : " (it is not in the fitted curve)"));
 }
 
 std::string counts_text(const RunCounts& runs) {
