@@ -33,6 +33,7 @@ void say_regions(const Mesh& mesh, Log& log) {
 }
 
 void check_fit(const FractureProgram& program, Log& log) {
+  const std::vector<MeasuredEvent> events = program.experiment ? events_of_fit(program) : std::vector<MeasuredEvent>{};
   if (program.experiment)
     program.fit->where.in_context([&] {
       require_deviations(program.experiment->specimens);
@@ -43,9 +44,8 @@ void check_fit(const FractureProgram& program, Log& log) {
     log.say(fmt::format("fit of {} between {} and {}", parameter.in_case.name,
                         parameter.in_case.shown(parameter.in_fit.lower),
                         parameter.in_case.shown(parameter.in_fit.upper)));
-  if (program.experiment)
-    for (const MeasuredEvent& event : events_of_fit(program))
-      log.say(event_words(event, program.experiment->specimens[event.specimen].curve.name));
+  for (const MeasuredEvent& event : events)
+    log.say(event_words(event, program.experiment->specimens[event.specimen].curve.name));
   log.say(fit_words(*program.fit));
 }
 
