@@ -31,8 +31,9 @@ std::optional<std::string> of_volume(const Mesh& mesh, const FractureModel& mode
   Index n_without = 0, worst = -1;
   double most = 0.0;
   for (Index c = 0; c < mesh.n_cells(); ++c) {
+    if (std::ranges::binary_search(with, c)) continue;
     const auto by = against_volume(model.in_cell(mesh, c));
-    if (!by || !is_nearly_incompressible(*by) || std::ranges::binary_search(with, c)) continue;
+    if (!by || !is_nearly_incompressible(*by)) continue;
     ++n_without;
     if (by->poisson_ratio() > most) most = by->poisson_ratio(), worst = c;
   }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 namespace pfdm {
 
@@ -92,23 +93,33 @@ bool have_one_stiffness(const RegionModel& a, const RegionModel& b) {
   return a.stiffness && b.stiffness ? *a.stiffness == *b.stiffness : a.stiffness == b.stiffness;
 }
 
+using VolumeLaws = std::map<const Material*, std::optional<VolumeLaw>>;
+
 // None of relaxing materials that do without a pressure at all times.
-std::optional<VolumeLaw> volume_law(const RegionModel& region) {
+std::optional<VolumeLaw> of_relaxing(const Material& material, VolumeLaws& known) {
+  const auto [at, is_new] = known.try_emplace(&material);
+  if (is_new && relaxes_with_pressure(material))
+    at->second =
+        VolumeLaw{.elasticity = material.relaxed_elasticity(), .most_compressible = poisson_range(material).least};
+  return at->second;
+}
+
+std::optional<VolumeLaw> volume_law(const RegionModel& region, VolumeLaws& known) {
   const Material* material = region.material.get();
   if (material == nullptr) return VolumeLaw{.elasticity = region.elasticity};
   if (!material->has_linear_volume()) return std::nullopt;
-  if (material->relaxing() == nullptr) return VolumeLaw{.elasticity = region.elasticity};
-  if (!relaxes_with_pressure(*material)) return std::nullopt;
-  return VolumeLaw{.elasticity = poisson_range(*material).least, .relaxes = true};
+  if (material->relaxing() != nullptr) return of_relaxing(*material, known);
+  return VolumeLaw{.elasticity = region.elasticity};
 }
 
 // That of the region where Poisson's ratio does not vary within it.
 std::function<std::optional<VolumeLaw>(const Mesh&, Index)> volume_laws(const FractureModel& model) {
   constexpr double differs = 1e-9;
+  VolumeLaws known;
   std::vector<std::optional<VolumeLaw>> regions;
-  for (const RegionModel& region : model.regions) regions.push_back(volume_law(region));
+  for (const RegionModel& region : model.regions) regions.push_back(volume_law(region, known));
   CellField<std::optional<VolumeLaw>> cells(model.cells.size());
-  for (Index c = 0; c < model.cells.size(); ++c) cells[c] = volume_law(model.cells[c]);
+  for (Index c = 0; c < model.cells.size(); ++c) cells[c] = volume_law(model.cells[c], known);
   return [regions, cells](const Mesh& mesh, Index c) {
     const auto& region = regions[mesh.region[c]];
     if (cells.size() == 0) return region;

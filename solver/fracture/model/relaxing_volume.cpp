@@ -18,6 +18,7 @@ PoissonRange poisson_range(const Material& material) {
   };
   const IsotropicElasticity relaxed = material.relaxed_elasticity();
   consider(relaxed);
+  if (law->shear.empty() || law->bulk.empty()) return range;  // nu rises or falls all the time
   const auto left = [](const std::vector<PronyBranch>& branches, double time) {
     double sum = 0.0;
     for (const PronyBranch& branch : branches) sum += branch.modulus * std::exp(-time / branch.time);

@@ -55,7 +55,7 @@ CellPressure::CellPressure(const Mesh& mesh, const Unknowns& unknowns)
   const std::size_t n = mesh.n_cells();
   modulus_ = ratio_ = CellField<double>(n, 0.0);
   for (std::size_t k = 0; k < unknowns.pressure_cells.size(); ++k) {
-    const IsotropicElasticity& by = unknowns.pressure_elasticity[k];
+    const IsotropicElasticity& by = unknowns.pressure_laws[k].least();
     ratio_[unknowns.pressure_cells[k]] =
         std::min(moderate_lambda, (by.lambda - least_share * by.bulk_modulus()) / by.mu);
   }
@@ -64,11 +64,15 @@ CellPressure::CellPressure(const Mesh& mesh, const Unknowns& unknowns)
 }
 
 void CellPressure::take_over(CellField<IsotropicElasticity>& moduli, const CellField<double>& g,
-                             const CellField<IsotropicElasticity>& undamaged) {
+                             const CellField<IsotropicElasticity>& relaxing) {
   for (std::size_t k = 0; k < unknowns_.pressure_cells.size(); ++k) {
     const Index c = unknowns_.pressure_cells[k];
-    const IsotropicElasticity& sound = undamaged.size() > 0 ? undamaged[c] : unknowns_.pressure_elasticity[k];
-    const double kept = ratio_[c] * sound.mu / sound.lambda * moduli[c].lambda;
+    const IsotropicElasticity& sound = unknowns_.pressure_laws[k].elasticity;
+    double kept = ratio_[c] * sound.mu / sound.lambda * moduli[c].lambda;
+    if (relaxing.size() > 0 && relaxing[c].mu > 0.0) {
+      const double closed = moduli[c].bulk_modulus() / relaxing[c].bulk_modulus() - g[c];
+      kept = (ratio_[c] + 2.0 / 3.0) * (g[c] * relaxing[c].mu + closed * sound.mu) - 2.0 / 3.0 * moduli[c].mu;
+    }
     modulus_[c] = moduli[c].lambda - kept;
     moduli[c].lambda = kept;
   }

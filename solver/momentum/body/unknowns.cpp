@@ -124,9 +124,9 @@ void place_pressures(const Mesh& mesh, const ElasticBody& body, Unknowns& unknow
   for (Index c = 0; c < mesh.n_cells(); ++c) {
     const auto by = body.volume_law ? body.volume_law(mesh, c)
                                     : std::optional<VolumeLaw>({.elasticity = unknowns.sound[unknowns.zone[c]]});
-    if (!by || !(by->relaxes || is_nearly_incompressible(by->elasticity))) continue;
+    if (!by || !(by->most_compressible || is_nearly_incompressible(by->elasticity))) continue;
     unknowns.pressure_cells.push_back(c);
-    unknowns.pressure_elasticity.push_back(by->elasticity);
+    unknowns.pressure_laws.push_back(*by);
   }
 }
 

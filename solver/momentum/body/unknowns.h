@@ -59,8 +59,11 @@ struct VolumeLoads {
 
 /// The law by which a cell changes its volume.
 struct VolumeLaw {
-  IsotropicElasticity elasticity;  ///< undamaged; of relaxing materials when nu is least [Pa]
-  bool relaxes = false;            ///< the cell has a pressure whatever its Poisson's ratio
+  IsotropicElasticity elasticity;  ///< undamaged, relaxed [Pa]
+  /// Of cells that relax with a pressure, whatever their Poisson's ratio: the elasticity when it is least [Pa].
+  std::optional<IsotropicElasticity> most_compressible{};
+
+  const IsotropicElasticity& least() const { return most_compressible ? *most_compressible : elasticity; }
 };
 
 /// Body of the momentum balance.
@@ -107,10 +110,9 @@ struct Unknowns {
   bool plane_stress = false;       ///< across the plane patches; else plane strain
   Vector radial = Vector::Zero();  ///< of axisymmetric meshes: from the axis z along the middle of the sector
   Index n_cells = 0;
-  std::vector<SpinHold> spin_holds{};  ///< of cells in columns one cell wide; else empty
-  std::vector<Index> pressure_cells;   ///< entry k is the cell of unknown n_nodes() + k
-  /// The undamaged elasticity of each of them, by VolumeLaw.
-  std::vector<IsotropicElasticity> pressure_elasticity{};
+  std::vector<SpinHold> spin_holds{};      ///< of cells in columns one cell wide; else empty
+  std::vector<Index> pressure_cells;       ///< entry k is the cell of unknown n_nodes() + k
+  std::vector<VolumeLaw> pressure_laws{};  ///< of each of them
 
   bool is_axisymmetric() const { return radial != Vector::Zero(); }
   Index n_nodes() const { return n_cells + count_of(face_of_node); }

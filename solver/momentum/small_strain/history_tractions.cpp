@@ -21,7 +21,10 @@ struct StressByHistory {
 
 void HistoryTractions::set(const CellField<IsotropicElasticity>& moduli, const CellField<double>& g, double part,
                            HistoryStress history) {
-  set_moduli(moduli, g, history.sound);
+  CellField<IsotropicElasticity> relaxing = history.sound;
+  for (Index c = 0; c < relaxing.size(); ++c)
+    if (history.relaxes[c] == 0) relaxing[c] = {};
+  set_moduli(moduli, g, history.sound, relaxing);
   stress_ = std::move(history.stress);
   bear_gaps(history, g);
   give_to_pressures(history, g);
@@ -130,7 +133,8 @@ void HistoryTractions::add_histories(const FaceMoves& moves, CellMechanics& resu
     strain = symmetric_part(with_strain_across(c, sweep.gradients[c]));
     if (const double modulus = cells_.pressure().modulus(c); modulus > 0.0) {
       const double change = sweep.pressure.mean(c) / modulus + free_volume_change(c);
-      if (relaxes(c)) result.volume_changes[c] = {.by_gradient = strain.trace(), .by_flux = change};
+      const double free = eigenstrain_.any() ? trace(eigenstrain_[c]) : 0.0;
+      if (relaxes(c)) result.volume_changes[c] = {.by_gradient = strain.trace() - free, .by_flux = change - free};
       strain += (change - strain.trace()) / 3.0 * Tensor::Identity();
     }
     if (relaxes(c)) add_gaps(c, moves, result);

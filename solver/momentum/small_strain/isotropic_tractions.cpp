@@ -36,7 +36,7 @@ std::unique_ptr<Sweep> IsotropicTractions::new_sweep() const {
 }
 
 void IsotropicTractions::set(const CellField<IsotropicElasticity>& moduli, const CellField<double>& g, double part) {
-  set_moduli(moduli, g, {});
+  set_moduli(moduli, g, {}, {});
   cells_.weigh(g, part);
   cells_.weigh_third_order(g);
   extrapolate_eigenstrains();
@@ -44,11 +44,12 @@ void IsotropicTractions::set(const CellField<IsotropicElasticity>& moduli, const
 }
 
 void IsotropicTractions::set_moduli(const CellField<IsotropicElasticity>& moduli, const CellField<double>& g,
-                                    const CellField<IsotropicElasticity>& sound) {
+                                    const CellField<IsotropicElasticity>& sound,
+                                    const CellField<IsotropicElasticity>& relaxing) {
   moduli_ = moduli;
   jump_.renew(moduli_, sound);
   condense();
-  cells_.take_over(moduli_, g, sound);
+  cells_.take_over(moduli_, g, relaxing);
   find_initial_stress();
 }
 

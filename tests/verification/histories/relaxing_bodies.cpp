@@ -2,102 +2,33 @@
 // elastic one of the relaxed moduli. Nearly incompressible bodies with a history: cells have a pressure by their own
 // law.
 
-#include "mesh/dual.h"
 #include "mesh/generators/cylinder_sector.h"
 #include "physics/materials/j2_plasticity.h"
 #include "physics/materials/prony.h"
 #include "solver/fracture/fracture_run.h"
-#include "tests/verification/finite.h"
-#include "tests/verification/support.h"
+#include "tests/verification/histories/held_discs.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 
 namespace pfdm::verification::this_file {
 namespace {
 
-constexpr double mu = 1e6, nu = 0.4997;  // of the rubber
+using namespace discs;
+
+constexpr double nu = 0.4997;  // of the rubber
 constexpr IsotropicElasticity rubber{.lambda = 2.0 * mu * nu / (1.0 - 2.0 * nu), .mu = mu};
-constexpr StaggeredSettings tight{.damage_tolerance = 1e-9, .energy_tolerance = 1e-12, .equilibrium_tolerance = 1e-12};
-
-// A disc between bonded plates, four times as wide as thick.
-constexpr double radius = 1.0, height = 0.25, azimuth = std::numbers::pi / 36.0, rise = 1e-3 * height;
-const double area = 0.5 * std::sin(azimuth) * radius * radius;
-
-Mesh disc(Index in_radius, Index in_height) {
-  return make_cylinder_sector(
-      {.azimuth = azimuth, .radius = {{radius, in_radius, 1.0}}, .height = {{height, in_height, 1.0}}});
-}
-
-/// `grown` is the share of the rise at a load parameter.
-FractureModel disc_model(const RegionModel& region, const std::function<double(double)>& grown) {
-  FractureModel model = elastic_model(
-      {region.elasticity}, {axisymmetric_on("front"), axisymmetric_on("back"),
-                            displacement_on("bottom", [](const Vector&) -> Vector { return Vector::Zero(); }),
-                            moved("top", {true, true, true}, [grown](const Vector&, double t) -> Vector {
-                              return rise * grown(t) * Vector::UnitZ();
-                            })});
-  model.regions[0].material = region.material;
-  return model;
-}
 
 constexpr IsotropicElasticity foam{.lambda = 4.0 * mu, .mu = mu};  // relaxed, nu = 0.4
 
 RegionModel prony_region(double shear, double bulk) {
   PronyLaw law{.relaxed = foam, .shear = {{shear * mu, 1.0}}};
   if (bulk > 0.0) law.bulk.push_back({bulk * foam.bulk_modulus(), 1.0});
-  RegionModel region;
-  region.material = make_prony(law);
-  region.elasticity = region.material->elasticity();
-  return region;
-}
-
-struct Pad {
-  const char* cells;
-  Mesh mesh;
-};
-
-std::vector<Pad> pads() {
-  const auto flat = [](const Vector& s) -> Vector { return {s[0], s[1], s[2] / 3.0}; };
-  return {{.cells = "prisms", .mesh = extruded_triangles(6, {0.0, 1.0 / 12.0, 1.0 / 6.0, 0.25, 1.0 / 3.0})},
-          {.cells = "tetrahedra", .mesh = mapped_box({5, 5, 3}, flat, BoxCells::tetrahedra)},
-          {.cells = "polyhedra", .mesh = barycentric_dual(mapped_box({5, 5, 3}, flat, BoxCells::tetrahedra))}};
-}
-
-RegionModel elastic_region(const IsotropicElasticity& elasticity) {
-  RegionModel region;
-  region.elasticity = elasticity;
-  return region;
-}
-
-struct Pulled {
-  double modulus = 0.0;  // mean stress over nominal strain and mu
-  double account = 0.0;  // what is left of the work, relative
-};
-
-Pulled pulled(const Mesh& mesh, const StepReport& report) {
-  const auto top = mesh.patch_index("top");
-  return {.modulus = report.reaction[top].z() / area / (rise / height) / mu,
-          .account = left_over({}, report.energy) / report.energy.external_work};
-}
-
-constexpr StaggeredSettings closely{.energy_tolerance = 1e-9, .equilibrium_tolerance = 1e-10};
-
-/// In one step of this duration [s].
-Pulled pull_at_once(const Mesh& mesh, const RegionModel& region, double duration,
-                    const StaggeredSettings& settings = tight) {
-  FractureRun run(mesh, disc_model(region, [](double t) { return t; }), settings,
-                  {.initial_increment = 1.0, .maximum_increment = 1.0, .duration = duration, .stops = {}});
-  Pulled result;
-  run_to_end(run, [&](const FractureState&, const StepReport& report) {
-    if (report.step > 0) result = pulled(mesh, report);
-  });
-  return result;
+  return relaxing_region(law);
 }
 
 Mesh wall(double inner, double outer, Index n) {
@@ -122,129 +53,6 @@ TEST(RelaxingBodies, AreElasticWhereTheyHaveRelaxedAndWhereTheyHaveNot) {
   }
 }
 
-// Pulled at once and held, in steps of at most half a relaxation time: the shear modulus falls to a 21st, and of nu =
-// 0.46 the bulk modulus by a third.
-TEST(RelaxingBodies, NearlyIncompressibleDiscsRelaxToTheElasticOnes) {
-  constexpr double branch = 20.0, ramp = 1e-7, duration = 400.0;
-  for (const double poisson : {0.46, 0.4997})
-    for (const Index fine : {1, 2}) {
-      const Mesh mesh = disc(20 * fine, 4 * fine);
-      const IsotropicElasticity stiff = from_young_poisson(2.0 * (1.0 + branch) * mu * (1.0 + poisson), poisson);
-      const double of_bulk = poisson < 0.47 ? stiff.bulk_modulus() / 3.0 : 0.0;
-      const IsotropicElasticity soft{.lambda = stiff.bulk_modulus() - of_bulk - 2.0 * mu / 3.0, .mu = mu};
-      PronyLaw law{.relaxed = soft, .shear = {{branch * mu, 1.0}}};
-      if (of_bulk > 0.0) law.bulk = {{of_bulk, 3.0}};
-      RegionModel region;
-      region.material = make_prony(law);
-      region.elasticity = region.material->elasticity();
-      FractureRun run(mesh, disc_model(region, [](double t) { return std::min(t / ramp, 1.0); }), closely,
-                      {.initial_increment = ramp,
-                       .minimum_increment = 1e-12,
-                       .maximum_increment = 0.5 / duration,
-                       .duration = duration,
-                       .stops = {},
-                       .is_proportional = false});
-      Pulled first, last;
-      double account = 0.0;
-      run_to_end(run, [&](const FractureState&, const StepReport& report) {
-        if (report.step == 0) return;
-        last = pulled(mesh, report);
-        if (report.step == 1) first = last;
-        account = std::max(account, std::abs(last.account));
-      });
-      const double due = pull_at_once(mesh, elastic_region(soft), 1.0).modulus;
-      report_row(fmt::format("held disc, nu {}, {} cells", poisson, mesh.n_cells()),
-                 {{"at once", first.modulus}, {"held", last.modulus}, {"relaxed", due}, {"account", account}});
-      EXPECT_NEAR(last.modulus, due, 2e-4 * due);
-      EXPECT_LE(account, fine == 1 ? 0.035 : 0.009);
-    }
-}
-
-// Square pads, six times as wide as thick, of other cells. The prisms' surfaces are bonded as those of the hexahedra.
-TEST(RelaxingBodies, NearlyIncompressiblePadsOfAnyCellsRelaxToTheElasticOnes) {
-  constexpr double branch = 20.0, ramp = 1e-7, duration = 200.0;
-  for (const double poisson : {0.46, 0.4997})
-    for (const Pad& pad : pads()) {
-      const IsotropicElasticity stiff = from_young_poisson(2.0 * (1.0 + branch) * mu * (1.0 + poisson), poisson);
-      const IsotropicElasticity soft{.lambda = stiff.bulk_modulus() - 2.0 * mu / 3.0, .mu = mu};
-      const auto pull = [&](const std::shared_ptr<const Material>& material) {
-        FractureModel model =
-            elastic_model({material ? material->elasticity() : soft},
-                          {symmetry_on("xmin"), symmetry_on("ymin"),
-                           displacement_on("zmin", [](const Vector&) -> Vector { return Vector::Zero(); }),
-                           moved("zmax", {true, true, true}, [](const Vector&, double t) -> Vector {
-                             return 1e-3 / 3.0 * std::min(t / ramp, 1.0) * Vector::UnitZ();
-                           })});
-        model.regions[0].material = material;
-        FractureRun run(pad.mesh, model, closely,
-                        {.initial_increment = material ? ramp : 1.0,
-                         .minimum_increment = 1e-12,
-                         .maximum_increment = material ? 1.0 / duration : 1.0,
-                         .duration = duration,
-                         .stops = {},
-                         .is_proportional = false});
-        double force = 0.0;
-        run_to_end(run, [&](const FractureState&, const StepReport& report) {
-          force = report.reaction[pad.mesh.patch_index("zmax")].z();
-        });
-        return force / (1e-3 * mu);
-      };
-      const double held = pull(make_prony({.relaxed = soft, .shear = {{branch * mu, 1.0}}})), due = pull(nullptr);
-      report_row(fmt::format("held pad of {} {}, nu {}", pad.mesh.n_cells(), pad.cells, poisson),
-                 {{"held", held}, {"relaxed", due}});
-      EXPECT_NEAR(held, due, 1e-3 * due);
-    }
-}
-
-// By the correspondence principle the force under a held rise is the inverse Laplace transform of the elastic one,
-// mu~(s)/s times the elastic modulus at K/mu~(s). What the latter differs by from the relaxed one is transformed by
-// Stehfest's method with eight values (Comm. ACM 13 (1970) 47).
-TEST(RelaxingBodies, ANearlyIncompressibleDiscRelaxesByTheCorrespondencePrinciple) {
-  constexpr double branch = 20.0, poisson = 0.4997, ramp = 1e-7;
-  const Mesh mesh = disc(20, 4);
-  const double K = from_young_poisson(2.0 * (1.0 + branch) * mu * (1.0 + poisson), poisson).bulk_modulus();
-  const auto elastic = [&](double modulus) {  // mean stress over strain and mu; of the same operator
-    RegionModel region;
-    region.material =
-        make_prony({.relaxed = {.lambda = K - 2.0 * modulus / 3.0, .mu = modulus}, .shear = {{1e-12 * mu, 1.0}}});
-    region.elasticity = region.material->elasticity();
-    return pull_at_once(mesh, region, 1e13, closely).modulus;
-  };
-  const double relaxed = elastic(mu);
-  const auto due = [&](double time) {
-    constexpr std::array<double, 8> weights{-1.0 / 3.0,     145.0 / 3.0, -906.0,         16394.0 / 3.0,
-                                            -43130.0 / 3.0, 18730.0,     -35840.0 / 3.0, 8960.0 / 3.0};
-    double sum = 0.0;
-    for (std::size_t k = 0; k < weights.size(); ++k) {
-      const double s = static_cast<double>(k + 1) * std::numbers::ln2 / time;
-      const double modulus = 1.0 + branch * s / (s + 1.0);
-      sum += weights[k] * (elastic(mu * modulus) - modulus * relaxed) / s;
-    }
-    return (1.0 + branch * std::exp(-time)) * relaxed + sum * std::numbers::ln2 / time;
-  };
-  const std::array times{0.5, 1.0, 2.0, 4.0, 8.0};
-  std::size_t next = 0;
-  RegionModel region;
-  region.material = make_prony({.relaxed = {.lambda = K - 2.0 * mu / 3.0, .mu = mu}, .shear = {{branch * mu, 1.0}}});
-  region.elasticity = region.material->elasticity();
-  constexpr double duration = 8.0;
-  FractureRun run(mesh, disc_model(region, [](double t) { return std::min(t / ramp, 1.0); }), closely,
-                  {.initial_increment = ramp,
-                   .minimum_increment = 1e-12,
-                   .maximum_increment = 0.05 / duration,
-                   .duration = duration,
-                   .stops = {0.5 / duration, 1.0 / duration, 2.0 / duration, 4.0 / duration},
-                   .is_proportional = false});
-  run_to_end(run, [&](const FractureState&, const StepReport& report) {
-    if (next == times.size() || std::abs(duration * report.load - times[next]) > 1e-9) return;
-    const double found = pulled(mesh, report).modulus, by_principle = due(times[next]);
-    report_row(fmt::format("disc after {} relaxation times", times[next++]),
-               {{"held", found}, {"by the correspondence principle", by_principle}});
-    EXPECT_NEAR(found, by_principle, 0.002 * by_principle);
-  });
-  EXPECT_EQ(next, times.size());
-}
-
 // Plane strain, pressure inside: u(r) = p a^2/(b^2 - a^2) (r/(2 (K + mu/3)) + b^2/(2 mu r)), each modulus by its
 // compliance under a load that is held.
 TEST(RelaxingBodies, AThickCylinderCreepsAsTheClosedFormSays) {
@@ -267,7 +75,7 @@ TEST(RelaxingBodies, AThickCylinderCreepsAsTheClosedFormSays) {
         {region.material->elasticity()},
         {pressed, symmetry_on("bottom"), symmetry_on("top"), axisymmetric_on("front"), axisymmetric_on("back")});
     model.regions[0].material = region.material;
-    FractureRun run(mesh, model, tight,
+    FractureRun run(mesh, model, to_rounding,
                     {.initial_increment = ramp,
                      .minimum_increment = 1e-12,
                      .maximum_increment = 0.002,
@@ -317,7 +125,7 @@ TEST(RelaxingBodies, AThickCylinderYieldsAtNu04999) {
                              }),
                        symmetry_on("bottom"), symmetry_on("top"), axisymmetric_on("front"), axisymmetric_on("back")});
     model.regions[0].material = make_j2_plasticity(elasticity, {.yield_stress = Y});
-    FractureRun run(mesh, model, tight, {.initial_increment = 0.05, .maximum_increment = 0.05, .stops = {}});
+    FractureRun run(mesh, model, to_rounding, {.initial_increment = 0.05, .maximum_increment = 0.05, .stops = {}});
     FractureState state = run.initial_state();
     StepReport last;
     while (!run.is_complete(state)) last = run.step(state);
@@ -349,7 +157,7 @@ TEST(RelaxingBodies, ElasticCellsBesideAHistoryKeepTheirPressure) {
     model.regions.push_back(model.regions[0]);
     model.regions[1].material = material;
     model.regions[1].expansion = 1e-30 * Tensor::Identity();  // a zone of its own without a material, too
-    FractureRun run(mesh, model, tight, {.initial_increment = 1.0, .maximum_increment = 1.0, .stops = {}});
+    FractureRun run(mesh, model, to_rounding, {.initial_increment = 1.0, .maximum_increment = 1.0, .stops = {}});
     double modulus = 0.0;
     run_to_end(run, [&](const FractureState&, const StepReport& report) { modulus = pulled(mesh, report).modulus; });
     return modulus;
@@ -368,7 +176,7 @@ TEST(RelaxingBodies, CellsHaveAPressureByTheirOwnPoissonRatio) {
     model.cells = CellField<RegionModel>(mesh.n_cells(), model.regions[0]);
     for (Index c = 0; c < mesh.n_cells(); ++c) model.cells[c].elasticity = at(poisson(mesh.cell_centre[c]));
     model.regions[0].elasticity = model.cells[0].elasticity;
-    FractureRun run(mesh, model, tight, {.initial_increment = 1.0, .maximum_increment = 1.0, .stops = {}});
+    FractureRun run(mesh, model, to_rounding, {.initial_increment = 1.0, .maximum_increment = 1.0, .stops = {}});
     double modulus = 0.0;
     run_to_end(run, [&](const FractureState&, const StepReport& report) { modulus = pulled(mesh, report).modulus; });
     const std::size_t n = place_unknowns(mesh, elastic_body(model)).pressure_cells.size();

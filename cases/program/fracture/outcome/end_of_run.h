@@ -14,15 +14,16 @@
 namespace pfdm {
 
 /// "between 154.6 and 157.1 um, where the force goes from 10.58 to 9.23 N, at the lower pole; debonding angle 33
-/// degrees", away from the poles "at polar angles of 40 to 70 degrees"; empty where the summary has none. Of a box strains and stresses.
+/// degrees", away from the poles "at polar angles of 40 to 70 degrees"; empty where the summary has none. Of a box
+/// strains and stresses.
 std::string first_debonding_words(const RunSummary& summary, const FractureCase& fracture, const CurveUnits& units);
 
 /// Rows of a page's table, name and value in SI with prefixes: displacement and force on both sides of the first
 /// debonding, and its angle; none where the summary has none.
 std::vector<std::vector<std::string>> first_debonding_rows(const RunSummary& summary, const FractureCase& fracture);
 
-/// A line each: greatest temperature rise, first debonding and what came off after it, greatest force, end of the curve, laws of bands that were
-/// extracted into `results`.
+/// A line each: greatest temperature rise, first debonding and what came off after it, greatest force, end of the
+/// curve, laws of bands that were extracted into `results`.
 std::vector<std::string> what_happened(const FractureCase& fracture, const CaseFile& file, const RunSummary& summary,
                                        const std::filesystem::path& results);
 
