@@ -15,6 +15,15 @@ def stiffness(young_modulus, poisson_ratio):
     return bulk * numpy.outer(unit, unit) + 2.0 * mu * deviatoric
 
 
+class Elastic(pfdm.OwnMaterial):
+    """Of the shipped bar."""
+
+    C = stiffness(30e9, 0.0)
+
+    def respond(self, strain_before, strain, history, duration):
+        return pfdm.MaterialResponse(self.C @ strain, self.C)
+
+
 class LinearSoftening(pfdm.OwnInterfaceLaw):
     """What law = "linear" with a stiffness does with mixed_mode = "camacho_ortiz" and shear_ratio = 1."""
 

@@ -9,7 +9,7 @@ import unittest
 import weakref
 
 from in_process import long_bar, rows_of
-from own_laws import J2Plasticity, LinearSoftening, NortonCreep, PlasticGlue, block, glued, stiffness, three
+from own_laws import Elastic, J2Plasticity, LinearSoftening, NortonCreep, PlasticGlue, block, glued
 from shared import Folder, shipped
 
 import numpy
@@ -26,15 +26,6 @@ def j2_block(folder, law):
                  'kinematic_hardening = "5 GPa"\n')
     stiffer = 'regions = ["right"]\ndamageable = false\nyoung_modulus = "400 GPa"\npoisson_ratio = 0.1'
     return block(folder, x="0.02*sin(2*pi*t)", material=text, right=stiffer, toughness="5 kJ/m^2")
-
-
-class Elastic(pfdm.OwnMaterial):
-    """Of the shipped bar."""
-
-    C = stiffness(30e9, 0.0)
-
-    def respond(self, strain_before, strain, history, duration):
-        return pfdm.MaterialResponse(self.C @ strain, self.C)
 
 
 class Failing(Elastic):
@@ -183,36 +174,6 @@ class Failures(Folder):
         with self.assertRaises(ZeroDivisionError):
             run.step()
         self.assertEqual(run.state.step, 0)
-
-    def test_of_answers_say_what_is_expected(self):
-        def law(*returned):
-            class Wrong(pfdm.OwnInterfaceLaw):
-                history_size = 1
-
-                def respond(self, *arguments):
-                    return returned
-
-            return Wrong()
-
-        for answer, said in [((numpy.zeros(2), three, [0.0], 0.0, 0.0), r"glue.*Wrong.*traction.*\(2,\); \(3,\)"),
-                             ((numpy.zeros(3), three[0], [0.0], 0.0, 0.0), r"tangent.*\(3,\); \(3, 3\)"),
-                             ((numpy.zeros(3), three, [], 0.0, 0.0), r"history.*\(0,\); \(1,\)"),
-                             ((numpy.zeros(3), three, [0.0], "much", 0.0), "stored energy.*no array of numbers"),
-                             ((numpy.zeros(3), three), "a tuple of 5 entries")]:
-            run = pfdm.FractureRun(glued(self.folder, x="0.01*t"), interfaces={"glue": law(*answer)})
-            with self.assertRaisesRegex(pfdm.InputError, said):
-                run.step()
-
-    def test_of_stresses_that_are_not_finite_cut_the_increment(self):
-        class Breaks(Elastic):
-            def respond(self, strain_before, strain, history, duration):
-                far = abs(strain - strain_before).max() > 1e-6
-                return pfdm.MaterialResponse(self.C @ strain * (numpy.nan if far else 1.0), self.C)
-
-        run = pfdm.FractureRun(long_bar(**{"mesh.x[0].cells": 21, "loading.initial_increment": 0.01}),
-                               materials={"bar": Breaks()})
-        self.assertLess(run.step()["load"], 0.002)
-        self.assertTrue(run.remarks)
 
 
 class Places(Folder):

@@ -28,8 +28,8 @@ class ScriptInterface final : public OwnInterfaceLaw {
       const ScriptLaw::Turn turn;
       const ScriptLaw::Answer answer =
           law_.respond(copy_of(parted), numbers_of_law(before), duration, at.strength, at.toughness);
-      answer.read(0, "traction", {3}, traction.data());
-      answer.read(1, "tangent", {3, 3}, tangent.data());
+      answer.read_finite(0, "traction", {3}, traction.data());
+      answer.read_finite(1, "tangent", {3, 3}, tangent.data());
       std::array<double, 3 * most_interface_branches> numbers{};
       answer.read(2, "history", {static_cast<py::ssize_t>(law_.history_size())}, numbers.data());
       for (std::size_t i = 0; i < law_.history_size(); ++i) response.history.branch[i / 3][i % 3] = numbers[i];

@@ -7,6 +7,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 #include <vector>
 
@@ -121,9 +122,26 @@ void ScriptLaw::Answer::read(std::size_t entry, const char* name, std::vector<py
   std::copy_n(array.data(), array.size(), to);
 }
 
+void ScriptLaw::Answer::read_finite(std::size_t entry, const char* name, std::vector<py::ssize_t> shape,
+                                    double* to) const {
+  read(entry, name, shape, to);
+  std::size_t size = 1;
+  for (const py::ssize_t n : shape) size *= static_cast<std::size_t>(n);
+  if (!std::ranges::all_of(std::span(to, size), [](double value) { return std::isfinite(value); }))
+    throw InputError(fmt::format("{}: the {} that respond() returns is not finite", law_.place_, name));
+}
+
 double ScriptLaw::Answer::number(std::size_t entry, const char* name) const {
   double value = 0.0;
-  read(entry, name, {}, &value);
+  read_finite(entry, name, {}, &value);
+  return value;
+}
+
+double ScriptLaw::Answer::dissipated(std::size_t entry, double rounding) const {
+  const double value = number(entry, "dissipated energy");
+  if (value < -rounding)
+    throw InputError(fmt::format("{}: the dissipated energy that respond() returns is {:g}; it must not be negative",
+                                 law_.place_, value));
   return value;
 }
 

@@ -21,7 +21,7 @@ struct ScriptLaws {
 /// Python cannot be combined with.
 void put_into_model(const ScriptLaws& laws, const Mesh& mesh, FractureModel& model);
 
-/// What tells runs of different laws apart: places and types.
+/// What tells runs of different laws apart: places and types, not what the objects hold.
 std::string words_of(const ScriptLaws& laws);
 
 /// Whether this thread is within respond() of such a law.
@@ -61,7 +61,12 @@ class ScriptLaw {
    public:
     /// Element by element in rows, into an array of this shape. Throws InputError for another shape.
     void read(std::size_t entry, const char* name, std::vector<py::ssize_t> shape, double* to) const;
+    /// Likewise, and throws InputError for numbers that are not finite.
+    void read_finite(std::size_t entry, const char* name, std::vector<py::ssize_t> shape, double* to) const;
+    /// Finite, too.
     double number(std::size_t entry, const char* name) const;
+    /// An energy that a step has dissipated. Throws InputError where it is less than -`rounding`.
+    double dissipated(std::size_t entry, double rounding) const;
 
    private:
     friend class ScriptLaw;

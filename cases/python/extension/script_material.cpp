@@ -11,6 +11,7 @@ namespace pfdm {
 namespace {
 
 constexpr std::size_t most_numbers = 1000;
+constexpr double most_rounding = 1e-9;  // of a dissipated energy, in that of stress and strain
 
 /// Places after the law's own numbers: the strain that is not elastic, and energies [J/m^3].
 enum Own : std::size_t { inelastic_strain = 0, locked = 6, dissipated = 7, n_own = 8 };
@@ -45,12 +46,14 @@ class ScriptMaterial final : public SmallStrainMaterial {
       answer.read(0, "stress", {6}, response.stress.data());
       answer.read(1, "tangent", {6, 6}, tangent.data());
       answer.read(2, "history", {static_cast<py::ssize_t>(n)}, history.data());
+      response.tangent = tangent;
+      response.solved = response.stress.allFinite() && response.tangent.allFinite();
+      if (!response.solved) return response;  // of such an answer the increment is cut, whatever its energies are
       history[n + locked] = answer.number(3, "locked energy");
-      history[n + dissipated] = step.history[n + dissipated] + answer.number(4, "dissipated energy");
+      const double rounding = most_rounding * response.stress.norm() * step.to.norm();
+      history[n + dissipated] = step.history[n + dissipated] + answer.dissipated(4, rounding);
     }
-    response.tangent = tangent;
     Eigen::Map<Mandel>(history.data() + n + inelastic_strain) = step.to - compliance_ * response.stress;
-    response.solved = response.stress.allFinite() && response.tangent.allFinite();
     return response;
   }
 

@@ -129,6 +129,9 @@ class FractureRun:
     def restore(self, state: State) -> None:
         """Goes back, or on, to a state of this run or of another one of the same case.
 
+        Laws in Python are told apart by their places and classes. Their parameters, as what their objects hold, are not
+        compared: with other ones the run goes on from this state by the laws that it has itself.
+
         Raises InputError if the state belongs to another mesh or model, or to other laws in Python.
         """
         self._run.restore(state._state)

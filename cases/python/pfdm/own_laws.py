@@ -56,6 +56,9 @@ class OwnInterfaceLaw(ABC):
             def respond(self, separation, history, duration, strength, toughness):
                 return pfdm.InterfaceResponse(1e12 * separation, 1e12 * numpy.eye(3), stored=5e11 * separation @ separation)
 
+    Threads of the program ask it. A process that is forked meanwhile, by the law or by another thread (os.fork,
+    multiprocessing with "fork"), can wait forever: start processes with multiprocessing's "spawn" method.
+
     Attributes:
         history_size: how many numbers it remembers of each face, at most 9; they are 0 at first.
         depends_on_rate: whether it needs the duration of steps, and the case a loading.duration.
@@ -71,6 +74,7 @@ class OwnInterfaceLaw(ABC):
 
         Contact is the law's own too: it has to resist a negative separation along the normal. All directions across the
         normal have to be alike. A face counts as debonded from 90 % of its toughness on, that it has dissipated.
+        Traction, tangent and energies have to be finite: others end the step with an InputError.
 
         Args:
             separation: of the face's sides at the end of the step [m], shape (3,): along the normal, positive where it
@@ -93,6 +97,9 @@ class OwnMaterial(ABC):
     is that of the stress by this elasticity; its energy and the locked one drive damage. The fields of the run get the
     rest of the strain as "inelastic_strain", and the history as "history_0", "history_1" ...
 
+    Threads of the program ask it. A process that is forked meanwhile, by the law or by another thread (os.fork,
+    multiprocessing with "fork"), can wait forever: start processes with multiprocessing's "spawn" method.
+
     Attributes:
         history_size: how many numbers it remembers of each cell, at most 1000; they are 0 at first.
         depends_on_rate: whether it needs the duration of steps, and the case a loading.duration.
@@ -105,7 +112,8 @@ class OwnMaterial(ABC):
     def respond(self, strain_before: NDArray[numpy.float64], strain: NDArray[numpy.float64],
                 history: NDArray[numpy.float64], duration: float) -> MaterialResponse:
         """What a cell bears, by its arguments alone: a step is computed many times, by several threads in any order.
-        With a stress that is not finite the step is tried anew by a smaller increment.
+        With a stress or a tangent that is not finite the step is tried anew by a smaller increment. With finite ones the
+        energies have to be finite and the dissipated one not negative: others end the step with an InputError.
 
         Args:
             strain_before, strain: at the start and at the end of the step [-], shape (6,), as of MaterialResponse.
