@@ -52,6 +52,21 @@ TEST(DebondedPoles, TellThatThereIsNoJump) {
             "debonded");
 }
 
+TEST(DebondedPoles, TellOfBothThatComeOffInOneStep) {
+  const TwoSurfaces folder("1,0,0,0,0,0,0,0\n1,1,0.2,10e-6,1,0,0,0\n1,2,0.4,20e-6,1,1e-8,30,40\n", "5e-8");
+  EXPECT_EQ(rest_of_debonding("b", up, microns, folder.path()),
+            "\"b\" debonds at both poles in one step, between 10 and 20 um; at the end 25 % of it has debonded");
+}
+
+TEST(DebondedPoles, TellNothingOfASurfaceWithoutArea) {
+  for (const char* area : {"0.0", "null"}) {
+    const TwoSurfaces folder("1,0,0,0,0,0,0,0\n1,1,0.2,10e-6,1,0,0,60\n", "0.0");
+    folder.write("cohesive.json",
+                 std::string(R"({"surfaces": [{"name": "b", "debonded_area_m2": 0.0, "area_m2": )") + area + "}]}");
+    EXPECT_EQ(rest_of_debonding("b", up, microns, folder.path()), "");
+  }
+}
+
 TEST(DebondedPoles, TellOfOnePoleAloneHowMuchHasComeOff) {
   const TwoSurfaces folder("1,0,0,0,0,0,0,0\n1,1,0.2,10e-6,1,1e-8,0,60\n", "5e-8");
   EXPECT_EQ(rest_of_debonding("b", up, microns, folder.path()), "at the end 25 % of \"b\" has debonded");

@@ -30,7 +30,7 @@ std::vector<Caps> caps_of(const CsvTable& table, std::size_t surface) {
   return caps;
 }
 
-/// Of the pole whose cap comes later; empty where it never does.
+/// Of the pole whose cap comes later, or of both where they come in the same step; empty where it never does.
 std::string words_of_later_pole(const std::vector<Caps>& caps, const Vector& axis, const CurveUnits& units) {
   constexpr double jump = 15.0;  // degrees: a sector of the law
   const auto first = [&](double Caps::*cap) {
@@ -40,6 +40,9 @@ std::string words_of_later_pole(const std::vector<Caps>& caps, const Vector& axi
   const auto cap = is_along ? &Caps::plus : &Caps::minus;
   const auto begin = first(cap);
   if (begin == caps.end() || begin == caps.begin()) return {};
+  if (first(&Caps::plus) == first(&Caps::minus))
+    return fmt::format("both poles in one step, between {}",
+                       two_shown_in(units.displacement, (begin - 1)->displacement, "and", begin->displacement));
   const std::string pole = name_of_pole(is_along, axis);
   auto largest = begin;
   for (auto at = begin; at != caps.end(); ++at)
@@ -76,6 +79,7 @@ std::string rest_of_debonding(const std::string& surface, const Vector& axis, co
     const auto found = std::ranges::find_if(all, [&](const auto& one) { return one.at("name") == surface; });
     if (found == all.end()) return {};
     const double share = number_of(found->at("debonded_area_m2")) / number_of(found->at("area_m2"));
+    if (!std::isfinite(share)) return {};
     const std::string pole =
         words_of_later_pole(caps_of(read_csv(angles), static_cast<std::size_t>(found - all.begin())), axis, units);
     const std::string area = fmt::format("{:.3g} %", 100.0 * share);

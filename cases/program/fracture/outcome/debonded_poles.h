@@ -18,7 +18,8 @@ std::optional<std::string> pole_of(double polar_from, double polar_to, const Vec
 /// "\"interface\" debonds at its upper pole between 451.8 and 454.3 um, where the debonding angle goes from 26 to 84
 /// degrees; at the end 99.9 % of it has debonded", of the surface of this name, by debonding.csv and cohesive.json in
 /// `results`. The pole is the one that debonds later; its greatest step is named where that is 15 degrees or more.
-/// Empty without these files.
+/// "debonds at both poles in one step, between 451.8 and 454.3 um" where neither is later. Empty without these files,
+/// and for a surface without an area.
 std::string rest_of_debonding(const std::string& surface, const Vector& axis, const CurveUnits& units,
                               const std::filesystem::path& results);
 
