@@ -192,6 +192,11 @@ const BadInput bad_events[] = {
      good,
      "event = \"jump\"\nleast_fall = 0.3\n[[experiment.events]]\nevent = \"jump\"\nleast_fall = 0.3\n",
      {"this jump is named twice"}},
+    {"jump_of_a_number_named_twice",
+     good,
+     "event = \"jump\"\nnumber = 1\ndisplacement = { value = \"11 um\", deviation = \"1 um\" }\n[[experiment.events]]\n"
+     "event = \"jump\"\nnumber = 1\ndisplacement = { value = \"12 um\", deviation = \"1 um\" }\n",
+     {"this jump is named twice"}},
     {"greatest_force_twice",
      good,
      "event = \"greatest_force\"\nforce = { value = \"19 N\", deviation = \"1 N\" }\n[[experiment.events]]\n"

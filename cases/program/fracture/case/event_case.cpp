@@ -134,10 +134,11 @@ void place_event(const ConfigTable& table, const MeasuredCurve& specimen, Measur
   }
   event.place = displacement->value;
   if (event.place >= record.x.front() && event.place <= record.x.back()) return;
-  const auto in_file = [&](double x) { return (x + specimen.origin) / specimen.displacement_factor; };
+  const auto in_file = [&](double x) { return (x + specimen.origin) / specimen.displacement_factor + 0.0; };  // not -0
+  const auto [least, greatest] = std::minmax({in_file(record.x.front()), in_file(record.x.back())});
   throw table.at("displacement")
-      .error(fmt::format("\"{}\" was recorded between {} and {}{}", record.name,
-                         quantity_text(in_file(record.x.front()), "m"), quantity_text(in_file(record.x.back()), "m"),
+      .error(fmt::format("\"{}\" was recorded between {} and {}{}", record.name, quantity_text(least, "m"),
+                         quantity_text(greatest, "m"),
                          specimen.displacement_factor == 1.0 ? "" : " in its file, before the factor"));
 }
 
@@ -156,7 +157,8 @@ void require_known_noise(const ConfigTable& table, const std::vector<MeasuredCur
 
 bool is_same(const MeasuredEvent& a, const MeasuredEvent& b) {
   if (a.kind != b.kind || a.specimen != b.specimen) return false;
-  return a.kind != EventKind::jump || a.place == b.place || (a.number && a.number == b.number);
+  return a.kind != EventKind::jump || a.place == b.place ||
+         (a.number && a.number == b.number && a.least_fall == b.least_fall);
 }
 
 }  // namespace
