@@ -4,11 +4,13 @@
 #include "cases/program/fracture/case/experiment_case.h"
 #include "cases/program/fracture/page/fit_on_page.h"
 #include "cases/program/input/case_files/case_file.h"
+#include "cases/program/studies/fit/curve_fit_at_work.h"
 #include "tests/cases/broken_bar.h"
 
 #include <gmock/gmock.h>
 
 #include <cmath>
+#include <sstream>
 
 namespace pfdm::this_file {
 namespace {
@@ -70,6 +72,72 @@ TEST(EventSides, AreStatedInTheNumbersOfTheFile) {
   EXPECT_NEAR(events[0].figures[0].deviation, 0.1e-6, 1e-15);
   EXPECT_NEAR(events[0].figures[1].value, 12.0, 1e-9);
   EXPECT_NEAR(events[0].figures[1].deviation, 0.2, 1e-12);
+}
+
+// The file has twice the displacements with another sign: from 0 to -30 um.
+TEST(EventSides, AreSaidToBeBeyondARecordFromItsLeastDisplacementOn) {
+  const std::string text =
+      event_fit("event = \"jump\"\ndisplacement = { value = \"-40 um\", deviation = \"0.2 um\" }\n");
+  const TemporaryCase directory(
+      replaced(text, "{ column = \"displacement_m\" }", "{ column = \"displacement_m\", factor = -0.5 }"));
+  CsvTable rows = broken_bar().rows;
+  for (double& u : rows.columns[0]) u *= -2.0;
+  write_csv(directory.path() / "data.csv", rows);
+  EXPECT_THAT(run({"check", directory.path().string()}).err,
+              HasSubstr("\"one\" was recorded between -30 um and 0 m in its file, before the factor"));
+}
+
+// The second one of those that fall by a third is not that of those that fall by a tenth.
+TEST(EventSides, AreOthersWithAnotherLeastFall) {
+  const std::string jump = "event = \"jump\"\nnumber = 1\nleast_fall = ";
+  const TemporaryCase directory(
+      event_fit(jump + "0.3\ndisplacement = { value = \"11 um\", deviation = \"1 um\" }\n[[experiment.events]]\n" +
+                jump + "0.1\ndisplacement = { value = \"12 um\", deviation = \"1 um\" }\n"));
+  broken_bar().write(directory);
+  const Outcome outcome = run({"check", directory.path().string()});
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+}
+
+MeasuredEvent jump_known_by(double deviation) {
+  return {.number = 2,
+          .place = 9e-6,
+          .figures = {{.figure = EventFigure::displacement, .value = 9e-6, .deviation = deviation}}};
+}
+
+TEST(EventSides, AreWarnedOfWhereTheirLoadStepsAreOthers) {
+  EXPECT_EQ(warning_of_steps(jump_known_by(1e-7), jump_known_by(1.04e-7), "one"), std::nullopt);
+  const auto warning = warning_of_steps(jump_known_by(1e-7), jump_known_by(2e-7), "one");
+  ASSERT_TRUE(warning);
+  EXPECT_THAT(*warning, HasSubstr("jump 2 of one counts with a standard deviation of 100 nm"));
+  EXPECT_THAT(*warning, HasSubstr("it would be 200 nm"));
+  EXPECT_THAT(*warning, HasSubstr("loading.maximum_increment"));
+}
+
+// A caller that has not asked before.
+TEST(EventSides, InNoStageAreRefusedByTheFitItself) {
+  const TemporaryCase directory(event_fit() + "[[fit.stages]]\nname = \"all\"\nbetween = [\"0 um\", \"8 um\"]\n");
+  broken_bar().write(directory);
+  const CaseFile file = open_case(directory.path());
+  const auto experiment = read_experiment(file.config.root(), file.directory);
+  const std::vector<MeasuredEvent> events = events_in_records(experiment->events, experiment->specimens);
+  const auto settings = read_curve_fit(file);
+  std::ostringstream said;
+  Log log(said, said, false, true);
+  Session session{.results = directory.results(), .max_steps = {}, .until = {}, .version = "0", .log = log};
+  const CurveFitJob job{.file = file,
+                        .settings = *settings,
+                        .specimens = experiment->specimens,
+                        .events = events,
+                        .straight_from = 0.0,
+                        .straight_to = 1e-6,
+                        .set_ups = {},
+                        .read_curve = {},
+                        .laws = {},
+                        .other_laws = {},
+                        .name = "",
+                        .hash = "",
+                        .title = ""};
+  EXPECT_THROW(fit_curve(job, session), InputError);
 }
 
 FittedEvent event_of(const std::string& specimen, const SetUp& set_up) {

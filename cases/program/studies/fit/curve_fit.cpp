@@ -29,12 +29,6 @@ constexpr double reach_of_sample = 1.5;  // of the sample: a factor of 4.5
 
 RunCounts counts_of(const CaseRuns& runs) { return {runs.n_made(), runs.n_reused(), runs.n_failed()}; }
 
-/// Whether the displacements of events are known alike: an eighth of a standard error is not worth more runs.
-bool is_as_exact(const MeasuredEvent& a, const MeasuredEvent& b) {
-  constexpr double noticeable = 0.05;
-  return std::abs(a.deviation_of_place() - b.deviation_of_place()) <= noticeable * b.deviation_of_place();
-}
-
 /// By which curves of the coarse case are aligned: the least of the jumps that are events.
 double least_fall_of(const std::vector<MeasuredEvent>& events) {
   std::optional<double> least;
@@ -221,6 +215,7 @@ FitStage CurveFit::fit_stage(const CurveFitStage& stage) {
   const DoneStage done{stage, points, problem, settings, result, until};
   const bool model_error = judge_stage(done, found.found);
   doubt(done, model_error, found.found);
+  warn_of_steps(done, found.found);
   const bool is_last = &stage == &job_.settings.stages.back();
   if (is_last) found.found.sensitivity_file = add_sensitivity(done, found.found);
   const bool is_by_profile = job_.settings.intervals == Intervals::profile;
@@ -250,6 +245,7 @@ std::vector<CurveFitStage>::const_iterator CurveFit::last_stage_of(std::size_t p
 
 void fit_curve(const CurveFitJob& job, Session& session) {
   require_start_within_bounds(job.settings.where, job.settings.parameters);
+  require_in_a_stage(job.settings, job.specimens, job.events);
   const FolderLock lock(session.results);
   session.log.say(head_line(session, fmt::format("fit of {}: {}", job.name, job.title)));
   session.log.open_file(session.results / "fit.log", true);

@@ -43,7 +43,7 @@ void require_in_a_stage(const CurveFitSettings& settings, const std::vector<Meas
 
 /// Writes fit.json, fit_curve.csv, with a posterior fit_posterior.csv and fit_law_N.csv, and case.fitted.toml to
 /// session.results, the runs to runs/ there. Killed at any moment it continues, at the next call, with the runs that it
-/// left, to the same result.
+/// left, to the same result. Throws InputError as require_in_a_stage, and for a start beyond the bounds.
 void fit_curve(const CurveFitJob& job, Session& session);
 
 }  // namespace pfdm

@@ -12,9 +12,18 @@
 #include <map>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace pfdm {
+
+/// Whether the displacements of events are known alike: an eighth of a standard error is not worth more runs.
+bool is_as_exact(const MeasuredEvent& a, const MeasuredEvent& b);
+
+/// What a fit with `used` is to say where its estimates have the event in a longer or shorter load step, as
+/// `at_estimates` has it; nothing where they are as exact.
+std::optional<std::string> warning_of_steps(const MeasuredEvent& used, const MeasuredEvent& at_estimates,
+                                            const std::string& specimen);
 
 class CurveFit {
  public:
@@ -107,6 +116,9 @@ class CurveFit {
   std::vector<std::string> missed_origins(const SampledCurve& fitted) const;
   /// Reasons where the fitted curve lacks an event, or has it elsewhere; in curve_fit_events.cpp.
   void doubt_events(const DoneStage& done, const SampledCurve& fitted, FitFindings& found);
+  /// A warning where the load steps about an event of the stage are others with the estimates than those that its
+  /// standard deviation has: the fit was made anew for them, and they have changed again.
+  void warn_of_steps(const DoneStage& done, FitFindings& found);
   /// A reason where an event moves by hardly a load step over the differences that the derivatives are of. `row`: of
   /// the residual of its displacement.
   void doubt_derivatives(const DoneStage& done, const MeasuredEvent& event, const ComputedEvent& computed,

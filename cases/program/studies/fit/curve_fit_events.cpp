@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 
 namespace pfdm {
 namespace {
@@ -38,6 +39,22 @@ std::string lacking_text(const MeasuredEvent& event, const std::string& specimen
 }
 
 }  // namespace
+
+bool is_as_exact(const MeasuredEvent& a, const MeasuredEvent& b) {
+  constexpr double noticeable = 0.05;
+  return std::abs(a.deviation_of_place() - b.deviation_of_place()) <= noticeable * b.deviation_of_place();
+}
+
+std::optional<std::string> warning_of_steps(const MeasuredEvent& used, const MeasuredEvent& at_estimates,
+                                            const std::string& specimen) {
+  if (is_as_exact(used, at_estimates)) return std::nullopt;
+  return fmt::format(
+      "{} of {} counts with a standard deviation of {}, by a load step about it that is not that of the estimates: "
+      "with theirs it would be {}. Intervals rest on it; take steps of one length about it (loading.maximum_increment, "
+      "or loading.finest_increment where steps are cut)",
+      used.name(), specimen, quantity_text(used.deviation_of_place(), "m", 2),
+      quantity_text(at_estimates.deviation_of_place(), "m", 2));
+}
 
 std::vector<MeasuredEvent> CurveFit::widened_events(const CurveFitStage& stage, const std::vector<double>& values,
                                                     std::optional<double> until) {
@@ -97,6 +114,16 @@ void CurveFit::doubt_derivatives(const DoneStage& done, const MeasuredEvent& eve
                          "its derivatives are those of the steps; take shorter load steps about it, or a longer "
                          "step in [fit]",
                          event.name(), quantity_text(*most, "m", 2), quantity_text(computed.step, "m", 2)));
+}
+
+void CurveFit::warn_of_steps(const DoneStage& done, FitFindings& found) {
+  const std::vector<MeasuredEvent> at_estimates = widened_events(done.stage, values_, done.until);
+  for (std::size_t k = 0; k < at_estimates.size(); ++k) {
+    if (!is_in(done.stage, events_[k], job_.specimens)) continue;
+    const std::string& specimen = job_.specimens[events_[k].specimen].curve.name;
+    if (auto warning = warning_of_steps(events_[k], at_estimates[k], specimen))
+      found.warnings.push_back(std::move(*warning));
+  }
 }
 
 void CurveFit::doubt_events(const DoneStage& done, const SampledCurve& fitted, FitFindings& found) {
