@@ -9,6 +9,17 @@ struct PronyDecay {
   double left = 1.0;    ///< exp(-x), of what its spring had
   double phi = 1.0;     ///< (1 - exp(-x))/x, of the change of strain
   double second = 0.5;  ///< (1 - phi)/x, of the change in the mean over the step
+
+  /// What the spring has at the end of a step in which the strain changes by `change`, with `before` at its start.
+  template <class Value>
+  Value after(const Value& before, const Value& change) const {
+    return left * before + phi * change;
+  }
+  /// The part of what the spring has at the end of a step that does not depend on the strain there.
+  template <class Value>
+  Value remainder(const Value& spring, const Value& strain) const {
+    return spring - phi * strain;
+  }
 };
 PronyDecay decay_over(double x);
 

@@ -54,7 +54,7 @@ class Prony final : public SmallStrainMaterial {
     for (std::size_t i = 0; i < law_.shear.size(); ++i) {
       const PronyDecay by = decay_over(step.duration / law_.shear[i].time);
       const Mandel before = Eigen::Map<const Mandel>(step.history.data() + 6 * i);
-      const Mandel q_n = deviator(step.from) - before, de = deviator(change), q = by.left * q_n + by.phi * de;
+      const Mandel q_n = deviator(step.from) - before, de = deviator(change), q = by.after(q_n, de);
       const Mandel viscous = deviator(step.to) - q;
       Eigen::Map<Mandel>(history.data() + 6 * i) = viscous;
       mean += law_.shear[i].modulus / mu_0 * viscous;
@@ -65,7 +65,7 @@ class Prony final : public SmallStrainMaterial {
     for (std::size_t j = 0; j < law_.bulk.size(); ++j) {
       const PronyDecay by = decay_over(step.duration / law_.bulk[j].time);
       const double r_n = trace(step.from) - step.history[bulk_ + j], dv = trace(change);
-      const double r = by.left * r_n + by.phi * dv;
+      const double r = by.after(r_n, dv);
       history[bulk_ + j] = trace(step.to) - r;
       mean += law_.bulk[j].modulus / K_0 * history[bulk_ + j] / 3.0 * mandel_identity();
       K += by.phi * law_.bulk[j].modulus;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 
 namespace pfdm {
 namespace {
@@ -38,7 +39,7 @@ void advance_volumes(const std::vector<PronyDecay>& shear, const VolumeChanges& 
     to[volumes_from + j] = changes[j];
     for (std::size_t i = 0; i < shear.size(); ++i) {
       const std::size_t at = branches_from + 2 * i + j;
-      to[at] = shear[i].left * from[at] + shear[i].phi * (changes[j] - from[volumes_from + j]);
+      to[at] = shear[i].after(from[at], changes[j] - from[volumes_from + j]);
     }
   }
 }
@@ -54,14 +55,15 @@ RelaxingGaps::RelaxingGaps(const Mesh& mesh, const CellField<const Material*>& m
     : mesh_(mesh) {
   if (materials.size() == 0) return;
   kind_ = CellField<Index>(materials.size(), -1);
+  std::map<const Material*, Index> kind_of;
   for (Index c = 0; c < materials.size(); ++c) {
     const Material* material = materials[c];
-    if (material == nullptr || !gaps_relax(*material, model)) continue;
-    const auto known = std::ranges::find(kinds_, material, &Kind::material);
-    kind_[c] = static_cast<Index>(known - kinds_.begin());
-    if (known != kinds_.end()) continue;
-    kinds_.push_back(
-        {.material = material, .law = material->relaxing(), .has_pressure = relaxes_with_pressure(*material)});
+    const auto [at, is_new] = kind_of.try_emplace(material, -1);
+    if (is_new && material != nullptr && gaps_relax(*material, model)) {
+      at->second = count_of(kinds_);
+      kinds_.push_back({.law = material->relaxing(), .has_pressure = relaxes_with_pressure(*material)});
+    }
+    kind_[c] = at->second;
   }
   start_step(0.0);
 }
@@ -88,10 +90,10 @@ void RelaxingGaps::tell(Index cell, std::span<const double> numbers, HistoryStre
   history.sound[cell] = by.elasticity;
   history.relaxes[cell] = 1;
   for (std::size_t i = 0; by.has_pressure && i < n_shear; ++i) {
-    const double modulus = by.law->shear[i].modulus, phi = by.shear[i].phi;
-    const double* left = &numbers[branches_from + 2 * i];
-    history.volumes[cell].by_gradient += modulus * (left[0] - phi * numbers[volumes_from]);
-    history.volumes[cell].by_flux += modulus * (left[1] - phi * numbers[volumes_from + 1]);
+    const double modulus = by.law->shear[i].modulus;
+    const std::span<const double> springs = numbers.subspan(branches_from + 2 * i, 2);
+    history.volumes[cell].by_gradient += modulus * by.shear[i].remainder(springs[0], numbers[volumes_from]);
+    history.volumes[cell].by_flux += modulus * by.shear[i].remainder(springs[1], numbers[volumes_from + 1]);
   }
   const auto faces = mesh_.faces_of_cell(cell);
   const std::size_t first = mesh_.cell_face_offsets[cell];
@@ -100,10 +102,10 @@ void RelaxingGaps::tell(Index cell, std::span<const double> numbers, HistoryStre
     const Vector z = vector_at(numbers, at);
     GapStress& left = history.gaps[first + k];
     for (std::size_t i = 0; i < n_shear; ++i)
-      left.shear += by.law->shear[i].modulus * (vector_at(numbers, at + 3 + 3 * i) - by.shear[i].phi * z);
+      left.shear += by.law->shear[i].modulus * by.shear[i].remainder(Vector(vector_at(numbers, at + 3 + 3 * i)), z);
     const double along = z.dot(mesh_.face_area[faces[k]].normalized());
     for (std::size_t j = 0; j < n_bulk; ++j)
-      left.bulk += by.law->bulk[j].modulus * (numbers[at + 3 + 3 * n_shear + j] - by.bulk[j].phi * along);
+      left.bulk += by.law->bulk[j].modulus * by.bulk[j].remainder(numbers[at + 3 + 3 * n_shear + j], along);
   }
 }
 
@@ -128,14 +130,14 @@ void RelaxingGaps::advance(Index cell, const CellMechanics& mechanics, std::span
     };
     Eigen::Map<Vector>(to.data() + at) = z;
     for (std::size_t i = 0; i < n_shear; ++i) {
-      const Vector r_n = vector_at(from, at + 3 + 3 * i), r = by.shear[i].left * r_n + by.shear[i].phi * (z - z_n);
+      const Vector r_n = vector_at(from, at + 3 + 3 * i), r = by.shear[i].after(r_n, Vector(z - z_n));
       Eigen::Map<Vector>(to.data() + at + 3 + 3 * i) = r;
       add(energy_of(by.law->shear[i], by.shear[i], r_n, r, z_n, z, dot), gap.volume);
     }
     for (std::size_t j = 0; j < n_bulk; ++j) {
       const std::size_t place = at + 3 + 3 * n_shear + j;
       const double r_n = from[place], a_n = z_n.dot(n), a = z.dot(n);
-      const double r = to[place] = by.bulk[j].left * r_n + by.bulk[j].phi * (a - a_n);
+      const double r = to[place] = by.bulk[j].after(r_n, a - a_n);
       add(energy_of(by.law->bulk[j], by.bulk[j], r_n, r, a_n, a, [](double x, double y) { return x * y; }),
           gap.by_bulk * gap.volume);
     }

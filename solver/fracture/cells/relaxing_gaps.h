@@ -51,7 +51,6 @@ class RelaxingGaps {
 
  private:
   struct Kind {
-    const Material* material;
     const PronyLaw* law;
     bool has_pressure = false;
     std::vector<PronyDecay> shear{}, bulk{};

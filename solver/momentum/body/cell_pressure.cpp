@@ -64,14 +64,14 @@ CellPressure::CellPressure(const Mesh& mesh, const Unknowns& unknowns)
 }
 
 void CellPressure::take_over(CellField<IsotropicElasticity>& moduli, const CellField<double>& g,
-                             const CellField<IsotropicElasticity>& relaxing) {
+                             const CellField<IsotropicElasticity>& sound, const CellField<char>& relaxes) {
   for (std::size_t k = 0; k < unknowns_.pressure_cells.size(); ++k) {
     const Index c = unknowns_.pressure_cells[k];
-    const IsotropicElasticity& sound = unknowns_.pressure_laws[k].elasticity;
-    double kept = ratio_[c] * sound.mu / sound.lambda * moduli[c].lambda;
-    if (relaxing.size() > 0 && relaxing[c].mu > 0.0) {
-      const double closed = moduli[c].bulk_modulus() / relaxing[c].bulk_modulus() - g[c];
-      kept = (ratio_[c] + 2.0 / 3.0) * (g[c] * relaxing[c].mu + closed * sound.mu) - 2.0 / 3.0 * moduli[c].mu;
+    const IsotropicElasticity& rested = unknowns_.pressure_laws[k].elasticity;
+    double kept = ratio_[c] * rested.mu / rested.lambda * moduli[c].lambda;
+    if (relaxes.size() > 0 && relaxes[c] != 0) {
+      const double closed = moduli[c].bulk_modulus() / sound[c].bulk_modulus() - g[c];
+      kept = (ratio_[c] + 2.0 / 3.0) * (g[c] * sound[c].mu + closed * rested.mu) - 2.0 / 3.0 * moduli[c].mu;
     }
     modulus_[c] = moduli[c].lambda - kept;
     moduli[c].lambda = kept;

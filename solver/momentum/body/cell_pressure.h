@@ -44,12 +44,12 @@ class CellPressure {
 
   bool any() const { return !unknowns_.pressure_cells.empty(); }
   /// Reduces lambda to lambda_s in the moduli of the cells with a pressure, which carries the rest. In a damaged cell
-  /// both are the same fractions of lambda as in the undamaged one. g are the stiffness factors. `relaxing`: of cells
-  /// that relax the undamaged moduli that a change of strain meets in the step [Pa], else zero; empty: none do. Their
-  /// K_s has its ratio to mu in the undamaged material: g times that relaxes as mu does. What closed cracks keep of K
-  /// keeps the share of the relaxed material.
+  /// both are the same fractions of lambda as in the undamaged one. g are the stiffness factors. `relaxes`: cells that
+  /// relax, empty: none; `sound`: their undamaged moduli that a change of strain meets in the step [Pa]. Their K_s has
+  /// its ratio to mu in the undamaged material: g times that relaxes as mu does. What closed cracks keep of K keeps the
+  /// share of the relaxed material.
   void take_over(CellField<IsotropicElasticity>& moduli, const CellField<double>& g,
-                 const CellField<IsotropicElasticity>& relaxing);
+                 const CellField<IsotropicElasticity>& sound, const CellField<char>& relaxes);
   /// The part of it that does not concern the moduli: at finite strain, whose laws know their own.
   void weigh(const CellField<double>& g);
   /// Pressures that are zero, for read().

@@ -29,8 +29,8 @@ class CellReconstruction {
   void leave_out_third_order();
   void weigh_pressures(const CellField<double>& g) { pressure_.weigh(g); }
   void take_over(CellField<IsotropicElasticity>& moduli, const CellField<double>& g,
-                 const CellField<IsotropicElasticity>& relaxing) {
-    pressure_.take_over(moduli, g, relaxing);
+                 const CellField<IsotropicElasticity>& sound, const CellField<char>& relaxes) {
+    pressure_.take_over(moduli, g, sound, relaxes);
   }
 
   /// Gradients of one ring [-], with the hoop strain about an axis.

@@ -21,10 +21,7 @@ struct StressByHistory {
 
 void HistoryTractions::set(const CellField<IsotropicElasticity>& moduli, const CellField<double>& g, double part,
                            HistoryStress history) {
-  CellField<IsotropicElasticity> relaxing = history.sound;
-  for (Index c = 0; c < relaxing.size(); ++c)
-    if (history.relaxes[c] == 0) relaxing[c] = {};
-  set_moduli(moduli, g, history.sound, relaxing);
+  set_moduli(moduli, g, history.sound, history.relaxes);
   stress_ = std::move(history.stress);
   bear_gaps(history, g);
   give_to_pressures(history, g);

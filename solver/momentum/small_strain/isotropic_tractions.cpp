@@ -44,12 +44,11 @@ void IsotropicTractions::set(const CellField<IsotropicElasticity>& moduli, const
 }
 
 void IsotropicTractions::set_moduli(const CellField<IsotropicElasticity>& moduli, const CellField<double>& g,
-                                    const CellField<IsotropicElasticity>& sound,
-                                    const CellField<IsotropicElasticity>& relaxing) {
+                                    const CellField<IsotropicElasticity>& sound, const CellField<char>& relaxes) {
   moduli_ = moduli;
   jump_.renew(moduli_, sound);
   condense();
-  cells_.take_over(moduli_, g, relaxing);
+  cells_.take_over(moduli_, g, sound, relaxes);
   find_initial_stress();
 }
 

@@ -113,9 +113,10 @@ class IsotropicTractions : public SmallTractions {
   // Traction on side number `turn` with the stress of these cells [Pa].
   virtual Vector own_traction(Index cell, const Vector& n, const Vector& d, std::size_t turn,
                               const IsotropicSweep& s) const;
-  // `sound`: undamaged moduli, empty: those of the zones; `relaxing` as in CellPressure::take_over().
+  // `sound`: undamaged moduli, empty: those of the zones; `relaxes`: cells that relax, whose `sound` is
+  // that of the step; empty: none.
   void set_moduli(const CellField<IsotropicElasticity>& moduli, const CellField<double>& g,
-                  const CellField<IsotropicElasticity>& sound, const CellField<IsotropicElasticity>& relaxing);
+                  const CellField<IsotropicElasticity>& sound, const CellField<char>& relaxes);
   void set_coefficients();
   Tensor with_strain_across(Index cell, const Tensor& gradient) const override;
   double stress_across(Index cell, const Tensor& strain, const Sweep& sweep) const override;
