@@ -17,10 +17,11 @@ import numpy
 from vtkmodules.numpy_interface.dataset_adapter import WrapDataObject
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonDataModel import vtkPlane
-from vtkmodules.vtkFiltersCore import vtkCellDataToPointData, vtkCleanPolyData, vtkCutter, vtkFeatureEdges
+from vtkmodules.vtkFiltersCore import vtkCleanPolyData, vtkCutter, vtkFeatureEdges
 
-from frames import LOOKS, Curve, cells_between, coloured_grid, frame_at, frames_of, run, warped
-from plotting import draw_caption, draw_colours, draw_scale, image_of, plt, prefix_of
+from frames import (LOOKS, Curve, add_options, coloured_grid, frame_at, frames_of, materials_of, most_of, run,
+                    sound_cells, warped)
+from plotting import draw_caption, draw_colours, draw_scale, image_of, new_body, plt, prefix_of
 
 AXES = {"xz": (0, 2, 1), "yz": (1, 2, 0), "xy": (0, 1, 2)}  # across the picture, up, normal to it
 
@@ -32,29 +33,20 @@ def parse_arguments():
     parser.add_argument("--film", type=pathlib.Path, help="a film of all frames in place of a picture, a WebP")
     parser.add_argument("--plane", choices=AXES, default="xz")
     parser.add_argument("--through", nargs=3, type=float, metavar=("X", "Y", "Z"), help="point of the plane [m]; the middle")
-    parser.add_argument("--colour", choices=LOOKS, default="damage")
-    parser.add_argument("--most", type=float, help="upper end of the colours, in their unit; the 99.5th percentile")
-    parser.add_argument("--at", type=float, help="time value of the frame, as in fields.pvd; the last")
-    parser.add_argument("--warp", type=float, default=1.0, help="displacements times this; 1 is true")
     parser.add_argument("--window", nargs=4, type=float, metavar=("LEFT", "RIGHT", "BOTTOM", "TOP"),
                         help="what is seen of the plane [m], in place of the whole body")
     parser.add_argument("--curve", action="store_true", help="the force over the displacement beside the body")
-    parser.add_argument("--width", type=int, default=600, help="of the picture, in pixels")
+    add_options(parser)
     return parser.parse_args()
 
 
 def sections(grid, point, normal, warp):
     """For each material: points of the section as it has moved, its triangles, their values, and the lines of its edge."""
-    sound = cells_between(grid, "damage", -1.0, 0.95)
     plane = vtkPlane()
     direction = numpy.eye(3)[normal]
     plane.SetOrigin(*(numpy.array(point) + 3e-4 * grid.GetLength() * direction))  # off the points that may lie in it
     plane.SetNormal(*direction)
-    for material in sorted(set(WrapDataObject(sound).CellData["material"])):
-        smoother = vtkCellDataToPointData()  # of this field alone: the points have a displacement of their own
-        smoother.ProcessAllArraysOff()
-        smoother.AddCellDataArray("colour")
-        part = run(smoother, cells_between(sound, "material", material, material))
+    for _, part in materials_of(sound_cells(grid)):
         cutter = vtkCutter()
         cutter.SetCutFunction(plane)
         cut = run(cutter, part)
@@ -121,9 +113,8 @@ def panels(options, window):
     """The figure and its axes: of the body alone, or with the curve beside it, below a flat one."""
     tall, inches = (window[3] - window[2]) / (window[1] - window[0]), options.width / 100
     if not (options.curve or options.film):
-        height = min(0.8 * inches * tall, inches) + 0.75
-        figure = plt.figure(figsize=(inches, height))
-        return figure, [figure.add_axes([0.03, 0.3 / height, 0.87, 1.0 - 0.75 / height])]
+        figure, axes = new_body(options.width, tall)
+        return figure, [axes]
     body = 0.83 * inches * tall + 0.55  # and its colours below
     if is_flat(window):
         height, rows_and_columns = body + 3.0, (2, 1)
@@ -154,8 +145,7 @@ def main():
     bounds = last.GetBounds()
     options.through = options.through or [0.5 * (bounds[2 * axis] + bounds[2 * axis + 1]) for axis in range(3)]
     window = window_of(last, options)
-    most = options.most or (1.0 if options.colour == "damage" else
-                            float(numpy.percentile(numpy.array(WrapDataObject(last).CellData["colour"]), 99.5)))
+    most = most_of(last, options)
     if options.film is None:
         _, file, step = frame_at(frames, options.at)
         picture_of(file, curve.row_of(step), curve, options, window, most).save(options.output, optimize=True)

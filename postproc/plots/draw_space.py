@@ -4,7 +4,8 @@
     xvfb-run -a /usr/bin/python3 postproc/plots/draw_space.py RESULTS --output space.png --cut xz
     xvfb-run -a /usr/bin/python3 postproc/plots/draw_space.py RESULTS --mesh --cut xz --whole 0
 
-RESULTS is a folder with fields.pvd and force_displacement.csv, for --mesh with mesh.vtu alone. Colours go smoothly from cell to cell within a material.
+RESULTS is a folder with fields.pvd and force_displacement.csv, for --mesh with mesh.vtu alone. Colours go smoothly from cell
+to cell within a material.
 Needs Debian's python3-vtk9 (libvtk9-dev brings it), python3-matplotlib and, where there is no display, xvfb.
 """
 
@@ -15,17 +16,17 @@ import matplotlib.cm
 import matplotlib.colors
 import numpy
 import vtkmodules.vtkRenderingOpenGL2  # noqa: F401  (VTK's factories)
-from vtkmodules.numpy_interface.dataset_adapter import WrapDataObject
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkLookupTable
 from vtkmodules.vtkCommonDataModel import vtkPlane
-from vtkmodules.vtkFiltersCore import vtkCellDataToPointData, vtkPolyDataNormals
+from vtkmodules.vtkFiltersCore import vtkPolyDataNormals
 from vtkmodules.vtkFiltersGeneral import vtkTableBasedClipDataSet
 from vtkmodules.vtkFiltersGeometry import vtkGeometryFilter
 from vtkmodules.vtkRenderingCore import vtkActor, vtkPolyDataMapper, vtkRenderer, vtkRenderWindow, vtkWindowToImageFilter
 
-from frames import LOOKS, Curve, cells_between, coloured_grid, frame_at, frames_of, read_grid, run, warped
-from plotting import draw_caption, draw_colours, draw_scale, image_of, plt
+from frames import (LOOKS, Curve, add_options, coloured_grid, frame_at, frames_of, materials_of, most_of, read_grid, run,
+                    sound_cells, warped)
+from plotting import draw_caption, draw_colours, draw_scale, image_of, new_body, plt
 
 NORMALS = {"xz": 1, "yz": 0, "xy": 2}
 MATERIALS = ("#dfe6ee", "#7fa8c9", "#e0a458", "#8f6f9e")
@@ -39,12 +40,8 @@ def parse_arguments():
     parser.add_argument("--whole", type=int, nargs="*", default=[], help="numbers of materials that are not cut")
     parser.add_argument("--from", dest="seen_from", nargs=3, type=float, default=(-0.5, -1.0, 0.45), metavar=("X", "Y", "Z"),
                         help="direction to the eye")
-    parser.add_argument("--colour", choices=LOOKS, default="damage")
-    parser.add_argument("--most", type=float, help="upper end of the colours, in their unit; the 99.5th percentile")
-    parser.add_argument("--at", type=float, help="time value of the frame, as in fields.pvd; the last")
-    parser.add_argument("--warp", type=float, default=1.0, help="displacements times this; 1 is true")
     parser.add_argument("--mesh", action="store_true", help="the mesh before the run, a colour for each material")
-    parser.add_argument("--width", type=int, default=600, help="of the picture, in pixels")
+    add_options(parser)
     return parser.parse_args()
 
 
@@ -61,20 +58,13 @@ def cut_off(part, grid, options):
 
 def surfaces(grid, options):
     """Number and surface of each material as it has moved, with its colours at the points."""
-    sound = grid if options.mesh else cells_between(grid, "damage", -1.0, 0.95)
-    for material in sorted(set(WrapDataObject(sound).CellData["material"])):
-        part = cells_between(sound, "material", material, material)
-        if not options.mesh:
-            smoother = vtkCellDataToPointData()  # of this field alone: the points have a displacement of their own
-            smoother.ProcessAllArraysOff()
-            smoother.AddCellDataArray("colour")
-            part = run(smoother, part)
+    for material, part in materials_of(grid if options.mesh else sound_cells(grid), smooth=not options.mesh):
         if options.cut and material not in options.whole:
             part = cut_off(part, grid, options)
         surface = run(vtkGeometryFilter(), part)
         normals = vtkPolyDataNormals()
         normals.SetFeatureAngle(30.0)
-        yield int(material), run(normals, surface if options.mesh else warped(surface, options.warp))
+        yield material, run(normals, surface if options.mesh else warped(surface, options.warp))
 
 
 def colour_table(colour):
@@ -136,10 +126,7 @@ def rendered(actors, seen_from, width):
 
 def figure_of(pixels, size, width):
     """The figure with the pixels, of `size` [m] each, and its axes."""
-    inches = width / 100
-    height = min(0.8 * inches * pixels.shape[0] / pixels.shape[1], inches) + 0.75
-    figure = plt.figure(figsize=(inches, height))
-    axes = figure.add_axes([0.03, 0.3 / height, 0.87, 1.0 - 0.75 / height])
+    figure, axes = new_body(width, pixels.shape[0] / pixels.shape[1])
     axes.imshow(pixels, extent=(0.0, size * pixels.shape[1], 0.0, size * pixels.shape[0]))
     axes.set_axis_off()
     draw_scale(axes)
@@ -156,8 +143,7 @@ def picture_of_frame(options):
     curve = Curve(options.results)
     _, file, step = frame_at(frames_of(options.results), options.at)
     grid = coloured_grid(file, options.colour)
-    most = options.most or (1.0 if options.colour == "damage" else
-                            float(numpy.percentile(numpy.array(WrapDataObject(grid).CellData["colour"]), 99.5)))
+    most = most_of(grid, options)
     table, (label, colours, _) = colour_table(options.colour), LOOKS[options.colour]
     actors = [actor_of(surface, table, most) for _, surface in surfaces(grid, options)]
     figure, axes = figure_of(*rendered(actors, options.seen_from, options.width), options.width)

@@ -7,7 +7,7 @@ import matplotlib.colors
 import numpy
 from vtkmodules.numpy_interface.dataset_adapter import WrapDataObject
 from vtkmodules.vtkCommonDataModel import vtkDataObject
-from vtkmodules.vtkFiltersCore import vtkThreshold
+from vtkmodules.vtkFiltersCore import vtkCellDataToPointData, vtkThreshold
 from vtkmodules.vtkFiltersGeneral import vtkWarpVector
 from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
 
@@ -16,6 +16,15 @@ from plotting import read_columns, with_unit
 DAMAGE = matplotlib.colors.LinearSegmentedColormap.from_list("damage", [
     (0.0, "#edf0f5"), (0.25, "#9ec2e0"), (0.5, "#fcd973"), (0.75, "#e85e33"), (1.0, "#66001a")])
 LOOKS = {"damage": ("damage", DAMAGE, 1.0), "von_mises": ("stress, von Mises [MPa]", "viridis", 1e-6)}
+
+
+def add_options(parser):
+    """What is drawn of which frame, and how large."""
+    parser.add_argument("--colour", choices=LOOKS, default="damage")
+    parser.add_argument("--most", type=float, help="upper end of the colours, in their unit; the 99.5th percentile")
+    parser.add_argument("--at", type=float, help="time value of the frame, as in fields.pvd; the last")
+    parser.add_argument("--warp", type=float, default=1.0, help="displacements times this; 1 is true")
+    parser.add_argument("--width", type=int, default=600, help="of the picture, in pixels")
 
 
 def frames_of(results):
@@ -87,6 +96,29 @@ def cells_between(grid, field, low, high):
     threshold.SetUpperThreshold(high)
     threshold.SetThresholdFunction(vtkThreshold.THRESHOLD_BETWEEN)
     return run(threshold, grid)
+
+
+def sound_cells(grid):
+    """Without the broken ones, so that cracks open."""
+    return cells_between(grid, "damage", -1.0, 0.95)
+
+
+def materials_of(grid, smooth=True):
+    """Number and cells of each material; smooth: with the field "colour" at its points."""
+    for material in sorted(set(WrapDataObject(grid).CellData["material"])):
+        part = cells_between(grid, "material", material, material)
+        if smooth:
+            smoother = vtkCellDataToPointData()  # of this field alone: the points have a displacement of their own
+            smoother.ProcessAllArraysOff()
+            smoother.AddCellDataArray("colour")
+            part = run(smoother, part)
+        yield int(material), part
+
+
+def most_of(grid, options):
+    """The upper end of the colours."""
+    return options.most or (1.0 if options.colour == "damage" else
+                            float(numpy.percentile(numpy.array(WrapDataObject(grid).CellData["colour"]), 99.5)))
 
 
 def warped(data, factor):

@@ -55,6 +55,14 @@ def new_picture(height=4.0):
     return plt.subplots(figsize=(6.0, height), constrained_layout=True)
 
 
+def new_body(width, tall):
+    """A figure as wide as these pixels, and axes for a body `tall` times as high as wide, with room for its colours."""
+    inches = width / 100
+    height = min(0.8 * inches * tall, inches) + 0.75
+    figure = plt.figure(figsize=(inches, height))
+    return figure, figure.add_axes([0.03, 0.3 / height, 0.87, 1.0 - 0.75 / height])
+
+
 def save_picture(figure, axes, x_label, y_label, path):
     axes.set_xlabel(x_label)
     axes.set_ylabel(y_label)
