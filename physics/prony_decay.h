@@ -20,6 +20,11 @@ struct PronyDecay {
   Value remainder(const Value& spring, const Value& strain) const {
     return spring - phi * strain;
   }
+  /// The same by the spring and the strain at the start of the step.
+  template <class Value>
+  Value remainder_after(const Value& spring, const Value& strain) const {
+    return left * spring - phi * strain;
+  }
 };
 PronyDecay decay_over(double x);
 

@@ -16,41 +16,8 @@ namespace {
 // (solver/momentum/body/unknowns.cpp, cell_pressure.h). Without a pressure 0.49 takes ten times the iterations of 0.3,
 // 0.499 does not converge.
 constexpr double nearly_incompressible = 0.47, moderate_lambda = 2.5;
-constexpr double least_volume = 0.1;  // J from which on functions of J go on by their expansion
-
-using GreenSlope = Eigen::Matrix<double, 6, 9>;
-
-// dE/dH = sym(F^T dH).
-GreenSlope green_slope(const Tensor& F) {
-  GreenSlope slope;
-  for (Index k = 0; k < 3; ++k)
-    for (Index L = 0; L < 3; ++L)
-      slope.col(3 * k + L) = to_mandel(symmetric_part(F.row(k).transpose() * Vector::Unit(L).transpose()));
-  return slope;
-}
-
-Tensor green_strain(const Tensor& H) { return symmetric_part(H) + 0.5 * H.transpose() * H; }
-
-// P and A from S and dS/dE.
-PotentialAt by_gradient(double energy, const Tensor& F, const Mandel& S, const MandelMatrix& C) {
-  const GreenSlope slope = green_slope(F);
-  const Tensor stress = to_tensor(S);
-  PotentialAt result{.energy = energy, .stress = F * stress, .tangent = slope.transpose() * C * slope};
-  for (Index i = 0; i < 3; ++i) result.tangent.block<3, 3>(3 * i, 3 * i) += stress;
-  return result;
-}
-
-// Potential of a function of J at F, by its value and derivatives.
-PotentialAt by_volume(const Tensor& F, double value, double slope, double curvature) {
-  const Tensor cof = cofactor(F);
-  const Components normal = to_components(cof);
-  PotentialAt result{.energy = value, .stress = slope * cof, .tangent = curvature * normal * normal.transpose()};
-  for (Index k = 0; k < 3; ++k)
-    for (Index L = 0; L < 3; ++L)
-      result.tangent.col(3 * k + L) +=
-          slope * to_components(cofactor_change(F, Vector::Unit(k) * Vector::Unit(L).transpose()));
-  return result;
-}
+// Of viscoelastic materials, and the share of K that a pressure has at least (relaxing_volume.h, cell_pressure.h).
+constexpr double most_without_pressure = 0.4 + 1e-6, least_share = 0.2;
 
 void check(const HyperelasticLaw& law, const HyperelasticParameters& p) {
   const double nu = p.elasticity.poisson_ratio();
@@ -59,6 +26,8 @@ void check(const HyperelasticLaw& law, const HyperelasticParameters& p) {
         fmt::format("a material of the law \"{}\" with a Poisson's ratio of {}: this law has no pressure unknown; at "
                     "most {} is allowed",
                     law.name, nu, nearly_incompressible));
+  if (law.name == "saint_venant_kirchhoff" && !p.branches.empty())
+    throw InputError("a material of the law \"saint_venant_kirchhoff\" cannot have shear_branches; choose neo_hookean");
   if (!(p.second_invariant >= 0.0 && p.second_invariant <= 1.0))
     throw InputError(fmt::format("second_invariant is {}; it must be between 0 and 1", p.second_invariant));
   if (p.shares.size() != p.exponents.size())
@@ -88,39 +57,56 @@ HyperelasticMaterial::HyperelasticMaterial(const HyperelasticLaw& law, Hyperelas
         "a material of the law \"{}\" with these parameters and a Poisson's ratio of {:.6g} has a negative stiffness "
         "against changes of volume beyond its shear part's, {}; a larger Poisson's ratio is required",
         law_.name, elasticity().poisson_ratio(), quantity_text(Lambda_, "Pa")));
-  const double moderate = std::max(moderate_lambda * elasticity().mu - C(0, 1), 0.0);
-  if (elasticity().poisson_ratio() > nearly_incompressible)
-    pressure_modulus_ = std::max(Lambda_ - moderate, 0.5 * Lambda_);
+  choose_pressure(C(0, 1));
+  branches_ = ViscousBranches(p_.branches, p_.volumetric, 0.0);
+  branches_of_cells_ = ViscousBranches(p_.branches, p_.volumetric, bulk_ratio_);
+}
+
+// shear_lambda: lambda of the shear part [Pa]. Of viscoelastic materials lambda_s/mu is one that leaves the pressure a
+// share of K before anything has relaxed.
+void HyperelasticMaterial::choose_pressure(double shear_lambda) {
+  if (p_.branches.empty()) {
+    const double moderate = std::max(moderate_lambda * elasticity().mu - shear_lambda, 0.0);
+    if (elasticity().poisson_ratio() > nearly_incompressible)
+      pressure_modulus_ = std::max(Lambda_ - moderate, 0.5 * Lambda_);
+    return;
+  }
+  prony_ = {.relaxed = elasticity(), .shear = p_.branches, .drive = p_.drive};
+  require_branches(prony_);
+  if (!(elasticity().poisson_ratio() > most_without_pressure)) return;
+  const IsotropicElasticity at_once = instantaneous_elasticity(prony_);
+  const double ratio = std::min(moderate_lambda, (at_once.lambda - least_share * at_once.bulk_modulus()) / at_once.mu);
+  pressure_modulus_ = std::min(elasticity().lambda - ratio * elasticity().mu, Lambda_);
+  bulk_ratio_ = ratio + 2.0 / 3.0;
 }
 
 // U.
-HyperelasticMaterial::OfVolume HyperelasticMaterial::volumetric(double Lambda, double change) const {
-  if (p_.volumetric == VolumetricForm::quadratic) return {0.5 * Lambda * change * change, Lambda * change, Lambda};
-  const double J = 1.0 + change, square = change * (2.0 + change);  // J^2 - 1
-  return {0.25 * Lambda * (square - 2.0 * std::log1p(change)), 0.5 * Lambda * square / J,
-          0.5 * Lambda * (1.0 + 1.0 / (J * J))};
+OfVolume HyperelasticMaterial::volumetric(double Lambda, double change) const {
+  const OfVolume U = volume_energy(p_.volumetric, change);
+  return {Lambda * U.value, Lambda * U.slope, Lambda * U.curvature};
 }
 
 // -p0 ln J + U, of J >= least_volume.
-HyperelasticMaterial::OfVolume HyperelasticMaterial::of_volume(double Lambda, double change) const {
+OfVolume HyperelasticMaterial::of_volume(double Lambda, double change) const {
   const double J = 1.0 + change;
   const OfVolume U = volumetric(Lambda, change);
   return {U.value - p0_ * std::log1p(change), U.slope - p0_ / J, U.curvature + p0_ / (J * J)};
 }
 
-VolumeAt HyperelasticMaterial::volume(double q, double g) const {
-  const double modulus = g * pressure_modulus_, x = q / modulus;
+double HyperelasticMaterial::instantaneous_shear_modulus() const {
+  return std::accumulate(p_.branches.begin(), p_.branches.end(), elasticity().mu,
+                         [](double sum, const PronyBranch& branch) { return sum + branch.modulus; });
+}
+
+double HyperelasticMaterial::volume_strain(double change) const {
+  return extended(change, [this](double at) { return volume_energy(p_.volumetric, at); }).slope;
+}
+
+VolumeAt HyperelasticMaterial::volume(double q, double modulus) const {
+  const double x = q / modulus;
   if (p_.volumetric == VolumetricForm::quadratic) return {x, 1.0 / modulus};
   const double root = std::sqrt(1.0 + x * x);
   return {x + x * x / (root + 1.0), (1.0 + x / root) / modulus};
-}
-
-// From J - 1 = `change` on, if that is less than where the function f is given.
-auto HyperelasticMaterial::extended(double change, const auto& f) -> OfVolume {
-  if (1.0 + change >= least_volume) return f(change);
-  const OfVolume at = f(least_volume - 1.0);
-  const double by = 1.0 + change - least_volume;
-  return {at.value + (at.slope + 0.5 * at.curvature * by) * by, at.slope + at.curvature * by, at.curvature};
 }
 
 PotentialAt HyperelasticMaterial::potential_with(double Lambda, const Tensor& H, double change) const {
@@ -128,7 +114,7 @@ PotentialAt HyperelasticMaterial::potential_with(double Lambda, const Tensor& H,
   const double det = 1.0 + volume_change(H), J = 1.0 + change;
   const ShearEnergy shear = law_.shear(p_, E);
   const OfVolume f = extended(change, [&](double at) { return of_volume(Lambda, at); });
-  const PotentialAt by_J = by_volume(F, f.value, f.slope, f.curvature);
+  const PotentialAt by_J = by_volume(F, f);
   PotentialAt result = by_gradient(shear.energy, F, shear.stress, shear.stiffness);
   result.energy += by_J.energy;
   result.tangent += by_J.tangent + p0_ * GradientTangent::Identity();
@@ -142,7 +128,7 @@ PotentialAt HyperelasticMaterial::potential_with(double Lambda, const Tensor& H,
 }
 
 // W(l 1) with l = J^(1/3): its slope by J is P_11/l^2, as dJ = 3 l^2 dl.
-HyperelasticMaterial::OfVolume HyperelasticMaterial::dilation(double Lambda, double change) const {
+OfVolume HyperelasticMaterial::dilation(double Lambda, double change) const {
   const double stretch = std::cbrt(1.0 + change);
   const Tensor H = std::expm1(std::log1p(change) / 3.0) * Tensor::Identity();
   const PotentialAt at = potential_with(Lambda, H, volume_change(H));
@@ -156,7 +142,7 @@ HyperelasticMaterial::OfVolume HyperelasticMaterial::dilation(double Lambda, dou
 PotentialAt HyperelasticMaterial::compression_with(double Lambda, const Tensor& H, double change) const {
   if (change >= 0.0) return {};
   const OfVolume f = extended(change, [&](double at) { return dilation(Lambda, at); });
-  return by_volume(Tensor::Identity() + H, f.value, f.slope, f.curvature);
+  return by_volume(Tensor::Identity() + H, f);
 }
 
 // At F = 1 the trace of N.A.N is 4 mu + lambda.
@@ -168,17 +154,27 @@ double HyperelasticMaterial::shear_modulus(const Tensor& F, const GradientTangen
   return std::clamp(sum / 12.0, 0.5 * elasticity().mu, 50.0 * elasticity().mu);
 }
 
-MaterialResponse HyperelasticMaterial::update(const MaterialStep& step, std::span<double>) const {
+MaterialResponse HyperelasticMaterial::update(const MaterialStep& step, std::span<double> history) const {
   if (!(volume_change(step.to) > -1.0)) return {.solved = false};
-  const PotentialAt at = potential(step.to);
+  const PointBefore before{step.from, step.duration, step.history};
+  PotentialAt at = potential(step.to);
+  at += branches_.over(step.to, before);
+  branches_.advance(step.to, before, history);
   return {.stress = at.stress, .tangent = at.tangent, .solved = std::isfinite(at.energy)};
 }
 
-Tensor HyperelasticMaterial::stress(const Tensor& H, std::span<const double>) const { return potential(H).stress; }
+Tensor HyperelasticMaterial::stress(const Tensor& H, std::span<const double> history) const {
+  return potential(H).stress + branches_.over(H, {H, 0.0, history}).stress;
+}
 
-MaterialEnergy HyperelasticMaterial::energy(const Tensor& H, std::span<const double>, const EnergySplit& split) const {
+MaterialEnergy HyperelasticMaterial::energy(const Tensor& H, std::span<const double> history,
+                                            const EnergySplit& split) const {
   const double kept = split.name() == "none" ? 0.0 : compression(H).energy;
-  return {.driving = potential(H).energy - kept};
+  const double in_branches = branches_.over(H, {H, 0.0, history}).energy;
+  const bool drives = p_.drive == PronyDrive::stored;
+  return {.driving = potential(H).energy - kept + (drives ? in_branches : 0.0),
+          .idle = drives ? 0.0 : in_branches,
+          .dissipated = branches_.heat(history)};
 }
 
 std::shared_ptr<const Material> make_hyperelastic(std::string_view law, HyperelasticParameters parameters) {

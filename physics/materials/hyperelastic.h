@@ -4,10 +4,8 @@
 //
 //   W = W_s(C) - p0 ln J + U(J),   J = det F,
 //
-// with a shear part W_s that has the stress p0 I at F = 1. U is
-//   quadratic:   Lambda/2 (J - 1)^2                 (Kamarei, Zeng, Dolbow, Lopez-Pamies, CMAME 448 (2026) 118449)
-//   logarithmic: Lambda/4 (J^2 - 1 - 2 ln J)        (Ciarlet, Geymonat, C. R. Acad. Sci. Paris 295 (1982) 423)
-// and Lambda such that at small strain the law is that of the given elasticity (lambda, mu).
+// with a shear part W_s that has the stress p0 I at F = 1. U is Lambda times the volume energy of potential.h, Lambda
+// such that at small strain the law is that of the given elasticity (lambda, mu).
 //
 // The shear parts: with mu_p = share_p mu, I1 = tr C, I2 = (I1^2 - tr C^2)/2 and stretches l_i
 //   neo_hookean            mu/2 (I1 - 3)
@@ -25,23 +23,26 @@
 //
 // Nearly incompressible materials (nu > 0.47): an unknown pressure q = c U'(J) carries the share c of U that is beyond
 // lambda_s = 2.5 mu (solver/momentum/body/cell_pressure.h), P = dW_m/dF + q cof F with W_m = W - c U.
+//
+// Viscoelastic materials have Maxwell branches beside this law (viscous_branches.h), which is then what is left at
+// rest. Their cells have a pressure if nu > 0.4; lambda_s relaxes as mu does.
 
-#include "physics/elasticity/mandel.h"
 #include "physics/materials/material.h"
+#include "physics/materials/viscous_branches.h"
 
 #include <memory>
 #include <vector>
 
 namespace pfdm {
 
-enum class VolumetricForm { quadratic, logarithmic };
-
 struct HyperelasticParameters {
-  IsotropicElasticity elasticity;  ///< at small strain [Pa]
+  IsotropicElasticity elasticity;  ///< at small strain, of viscoelastic materials at rest [Pa]
   VolumetricForm volumetric = VolumetricForm::quadratic;
-  double second_invariant = 0.0;    ///< mu_01/mu of mooney_rivlin, 0 to 1
-  std::vector<double> shares{};     ///< of mu, of ogden and lopez_pamies; they sum to 1
-  std::vector<double> exponents{};  ///< alpha_p, one per share; not zero
+  double second_invariant = 0.0;        ///< mu_01/mu of mooney_rivlin, 0 to 1
+  std::vector<double> shares{};         ///< of mu, of ogden and lopez_pamies; they sum to 1
+  std::vector<double> exponents{};      ///< alpha_p, one per share; not zero
+  std::vector<PronyBranch> branches{};  ///< in shear; none: the material is elastic
+  PronyDrive drive = PronyDrive::equilibrium;
 };
 
 /// The shear part by the Green strain E: S - p0 I with S = 2 dW_s/dC, and dS/dE.
@@ -62,13 +63,6 @@ std::span<const HyperelasticLaw> hyperelastic_laws();
 /// Throws InputError for an unknown name.
 const HyperelasticLaw& hyperelastic_law(std::string_view name);
 
-/// W [J/m^3], P [Pa] and A [Pa] at some H.
-struct PotentialAt {
-  double energy = 0.0;
-  Tensor stress = Tensor::Zero();
-  GradientTangent tangent = GradientTangent::Zero();
-};
-
 /// Volume by the pressure q that the share c of U has.
 struct VolumeAt {
   double change = 0.0;  ///< J - 1
@@ -79,11 +73,14 @@ class HyperelasticMaterial final : public Material {
  public:
   /// Throws InputError for shares that do not sum to 1 or are not as many as the exponents, an exponent of zero, and a
   /// second_invariant outside 0 to 1. Also for a Poisson's ratio above 0.47 for saint_venant_kirchhoff, which has no
-  /// pressure, and parameters that make Lambda negative or the shear modulus not that of the elasticity.
+  /// pressure, and parameters that make Lambda negative or the shear modulus not that of the elasticity; for branches
+  /// of it, and branches that are not positive.
   HyperelasticMaterial(const HyperelasticLaw& law, HyperelasticParameters parameters);
 
   bool is_finite_strain() const override { return true; }
-  std::size_t history_size() const override { return 0; }
+  bool depends_on_rate() const override { return branches_.any(); }
+  std::size_t history_size() const override { return branches_.size(); }
+  const PronyLaw* relaxing() const override { return branches_.any() ? &prony_ : nullptr; }
 
   /// W and its derivatives. For laws whose shear part is not finite for every F the energy may be infinite or NaN where
   /// det F <= 0.
@@ -108,8 +105,19 @@ class HyperelasticMaterial final : public Material {
   double shear_modulus(const Tensor& F, const GradientTangent& A, double lambda) const;
   /// c Lambda [Pa]; zero of materials that have no pressure.
   double pressure_modulus() const { return pressure_modulus_; }
-  /// Volume by the pressure q, where c Lambda is multiplied by g.
-  VolumeAt volume(double q, double g) const;
+  /// Shear modulus at small strain with all branches [Pa].
+  double instantaneous_shear_modulus() const;
+  /// Volume by the pressure q [Pa] of this modulus [Pa], that of the share c of U as it is degraded and relaxed.
+  VolumeAt volume(double q, double modulus) const;
+  /// u by J - 1: the pressure of a modulus is this times it.
+  double volume_strain(double change) const;
+  PronyDrive drive() const { return p_.drive; }
+  /// The branches of a point of the material, and of cells, which have a pressure if the material needs one. Both are
+  /// beside potential().
+  const ViscousBranches& branches() const { return branches_; }
+  const ViscousBranches& branches_of_cells() const { return branches_of_cells_; }
+  /// lambda over mu of the branches of cells at small strain.
+  double branch_ratio() const { return bulk_ratio_ - 2.0 / 3.0; }
 
   MaterialResponse update(const MaterialStep& step, std::span<double> history) const override;
   Tensor stress(const Tensor& H, std::span<const double> history) const override;
@@ -117,21 +125,20 @@ class HyperelasticMaterial final : public Material {
   MaterialEnergy energy(const Tensor& H, std::span<const double> history, const EnergySplit& split) const override;
 
  private:
-  // A function of J alone: its value [J/m^3], slope and curvature [Pa].
-  struct OfVolume {
-    double value = 0.0, slope = 0.0, curvature = 0.0;
-  };
+  void choose_pressure(double shear_lambda);
   PotentialAt potential_with(double Lambda, const Tensor& H, double change) const;
   PotentialAt compression_with(double Lambda, const Tensor& H, double change) const;
   OfVolume volumetric(double Lambda, double change) const;
   OfVolume of_volume(double Lambda, double change) const;
-  static OfVolume extended(double change, const auto& f);
   OfVolume dilation(double Lambda, double change) const;
 
   const HyperelasticLaw& law_;
   HyperelasticParameters p_;
   double p0_ = 0.0, Lambda_ = 0.0;  // [Pa]
   double pressure_modulus_ = 0.0;   // [Pa]
+  PronyLaw prony_;
+  double bulk_ratio_ = 0.0;
+  ViscousBranches branches_, branches_of_cells_;
 };
 
 /// Throws InputError as the constructor does.

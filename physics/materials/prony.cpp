@@ -110,12 +110,16 @@ IsotropicElasticity elasticity_over(const PronyLaw& law, double duration) {
   return {.lambda = K - 2.0 * mu / 3.0, .mu = mu};
 }
 
-std::shared_ptr<const Material> make_prony(const PronyLaw& law) {
+void require_branches(const PronyLaw& law) {
   for (const auto* branches : {&law.shear, &law.bulk})
     for (const PronyBranch& branch : *branches)
       if (!(branch.modulus > 0.0 && branch.time > 0.0))
         throw InputError(fmt::format("a Prony branch with the modulus {} and the time {} s: both must be positive",
                                      quantity_text(branch.modulus, "Pa", 6), branch.time));
+}
+
+std::shared_ptr<const Material> make_prony(const PronyLaw& law) {
+  require_branches(law);
   if (law.shear.empty() && law.bulk.empty())
     throw InputError(
         "a material of the law \"prony\" needs shear_branches or bulk_branches, as in shear_branches = "

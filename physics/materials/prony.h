@@ -44,6 +44,9 @@ IsotropicElasticity elasticity_over(const PronyLaw& law, double duration);
 /// Relaxed moduli and all branches: what a change of strain meets at once [Pa].
 IsotropicElasticity instantaneous_elasticity(const PronyLaw& law);
 
+/// Throws InputError unless all moduli and times of the branches are positive.
+void require_branches(const PronyLaw& law);
+
 /// The elasticity of the material is the instantaneous one: relaxed moduli and all branches. Its results show
 /// viscous_strain, by which the instantaneous stress is less. Throws InputError unless there is a branch, and all
 /// moduli and times are positive.

@@ -26,6 +26,25 @@ void require_finite_interfaces(const FractureModel& m) {
   }
 }
 
+// One modulus makes no strength.
+void require_finite_branches(const FractureModel& m, const LoadingSettings& loading) {
+  for (const RegionModel& region : m.regions) {
+    if (!region.material || region.material->relaxing() == nullptr) continue;
+    const std::string_view law = region.material->name();
+    if (!(loading.duration > 0.0))
+      throw InputError(fmt::format(
+          "a material of the law \"{}\" with shear_branches requires loading.duration, the time in which t grows by 1",
+          law));
+    const bool rational = region.damageable && m.degradation_of(region).law().needs_strength;
+    if (rational || region.strength.is_chosen())
+      throw InputError(fmt::format(
+          "a material of the law \"{}\" with shear_branches cannot be combined with {}, whose strength is that of one "
+          "modulus",
+          law,
+          rational ? fmt::format("the degradation \"{}\"", m.degradation_of(region).name()) : "a model of strength"));
+  }
+}
+
 // The faces of a sheet have the stiffness of one that damage degrades as a whole. The thickness on which a pressure
 // would push is known to the laws of the cells only.
 void require_finite_plate(const FractureModel& m) {
@@ -72,6 +91,7 @@ void require_finite(const Mesh& mesh, const FractureModel& m, const Unknowns& un
   }
   require_finite_interfaces(m);
   if (unknowns.plane_stress) require_finite_plate(m);
+  require_finite_branches(m, loading);
   if (m.motion.any()) refuse("a prescribed mean strain or stress: the means are those of small strain");
   if (loading.controls_dissipation())
     refuse("dissipation control (loading.maximum_dissipation): their displacements are not proportional to the load");

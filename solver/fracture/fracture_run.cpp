@@ -213,7 +213,7 @@ FractureState FractureRun::initial_state() const {
   state.damage = parts_->model.initial_damage.size() > 0 ? parts_->model.initial_damage : CellField<double>(n, 0.0);
   state.driving_energy = CellField<double>(n, 0.0);
   state.closure = CellField<double>(n, 0.0);
-  state.histories = parts_->staggered.stiffness().materials().virgin_histories();
+  state.histories = parts_->staggered.stiffness().virgin_histories();
   state.interfaces = parts_->staggered.faces().virgin_histories();
   state.boundary_force.assign(parts_->mesh.n_faces() - parts_->mesh.n_interior_faces(), Vector::Zero());
   state.heat = parts_->heat.start(parts_->loading.duration);
@@ -252,7 +252,7 @@ StepReport FractureRun::step(FractureState& state, const IterationWatch& watch) 
 
 OutputFields FractureRun::output(const FractureState& state) {
   Staggered& staggered = parts_->staggered;
-  staggered.degrade(state);
+  staggered.hold(state);
   const CellMechanics mechanics = staggered.momentum().balance().mechanics(state.displacement);
   const Mesh& mesh = parts_->mesh;
   CellField<double> density(mesh.n_cells());

@@ -31,15 +31,19 @@ Staggered::Staggered(const Mesh& mesh, const FractureModel& model, const Unknown
       way_(stiffness_.descends() ? Relaxation::Way::momentum : Relaxation::Way::secant),
       has_newton_(way_ == Relaxation::Way::momentum && !stiffness_.depends_on_strain() && !faces_.any() &&
                   !model.has_eigenstrain() && CoupledNewton::suits(mesh, unknowns)),
-      psi_plus_(mesh.n_cells()) {}
+      psi_plus_(mesh.n_cells()) {
+  if (stiffness_.finite().any()) stiffness_.set_own_sides(momentum_.own_sides_at_finite_strain());
+}
 
 StepOutcome Staggered::solve_step(const FractureState& start, FractureState& state, const StepLimits& limits,
                                   const IterationWatch& watch) {
   stiffness_.start_step(limits.duration);
   faces_.start_step(limits.duration);
   momentum_.start_afresh();  // as a restarted run does
+  stiffness_.start_from(start, 0.0);
   const StrengthDrive strength_before = strength_drive_of(start);
   const FreeStrained strained_before = free_strained(start);
+  stiffness_.start_from(start, limits.duration);
   StepOutcome outcome = alternate(start, state, limits, watch);
   if (outcome.failed || outcome.broke_too_much || outcome.collapsed) return outcome;
   // Reactions balance, and energies belong to the damage of the step.
@@ -126,6 +130,11 @@ double Staggered::eigenstrain_work(const FreeStrained& from, const FreeStrained&
     const Mandel grown = to.eigenstrain[c] - from.eigenstrain[c];
     return -0.5 * (from.moment[c] + to.moment[c]).dot(grown);
   });
+}
+
+void Staggered::hold(const FractureState& state) {
+  stiffness_.start_from(state, 0.0);
+  degrade(state);
 }
 
 void Staggered::degrade(const FractureState& state) {

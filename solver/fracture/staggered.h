@@ -85,8 +85,10 @@ class Staggered {
   /// `t`.
   double work(const FractureState& from, double t, const std::vector<Vector>& force,
               const std::vector<Vector>& displacement) const;
-  /// Sets the degraded stiffness of the state in the momentum balance.
+  /// Sets the degraded stiffness of the state in the momentum balance, within the step that has begun; or of a state
+  /// that is held, after any step.
   void degrade(const FractureState& state);
+  void hold(const FractureState& state);
 
  private:
   struct Loop;

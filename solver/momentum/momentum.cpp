@@ -51,11 +51,17 @@ CellField<double> MomentumOperator::set_law(StrainLaw law, const CellField<doubl
   return tractions.side_stiffness();
 }
 
-CellField<double> MomentumOperator::set_finite(const FiniteLawAt& law, const CellField<double>& g,
-                                               const std::vector<Vector>& u, double t, double part) {
+std::vector<Index> MomentumOperator::own_sides_at_finite_strain() {
+  finite_ = &choose<FiniteTractions>(*eigenstrain_);
+  return finite_->states().cells_of_own();
+}
+
+CellField<double> MomentumOperator::set_finite(const FiniteLawAt& law, const std::vector<GapStress>& gaps,
+                                               const CellField<double>& g, const std::vector<Vector>& u, double t,
+                                               double part) {
   finite_ = &choose<FiniteTractions>(*eigenstrain_);
   const auto lease = sweep();
-  finite_->set(law, g, u, part, *lease);
+  finite_->set(law, gaps, g, u, part, *lease);
   loads_.follow(t, u, lease->gradients, g);
   return finite_->states().face_stiffness();
 }
@@ -78,6 +84,14 @@ double MomentumOperator::energy_if_held() const {
       mechanics(std::vector<Vector>(unknowns.n_unknowns(), Vector::Zero()), Wanted::without_gradient);
   return parallel_sum(held.eigenstrain.size(),
                       [&](Index c) { return std::abs(held.traction_moment[c].dot(held.eigenstrain[c])); });
+}
+
+double MomentumOperator::energy_remembered() const {
+  if (finite_ == nullptr || !finite_->remembers()) return 0.0;
+  return parallel_sum(skeleton_->mesh.n_cells(), [&](Index c) {
+    const FiniteLaw& law = finite_->states().law(c);
+    return law.memory.share > 0.0 ? skeleton_->mesh.cell_volume[c] * law.stress.squaredNorm() / law.face.mu : 0.0;
+  });
 }
 
 void MomentumOperator::relax_flat_cells() { cells_->relax_flat_cells(); }

@@ -57,10 +57,12 @@ class MomentumOperator {
   CellField<double> set_law(StrainLaw law, const CellField<double>& g, const std::vector<Vector>& u, bool afresh,
                             double part = 0.0);
   /// Finite strain: the balance linearised about the displacements u, and pressures on patches about the load parameter
-  /// t. There it is exact. In plane stress the laws are condensed already. Returns a measure of the stiffness of each
-  /// cell's faces [Pa].
-  CellField<double> set_finite(const FiniteLawAt& law, const CellField<double>& g, const std::vector<Vector>& u,
-                               double t, double part = 0.0);
+  /// t. There it is exact. In plane stress the laws are condensed already. `gaps`: what is left of earlier ones, by
+  /// Mesh::cell_faces; empty: no cell relaxes. Returns a measure of the stiffness of each cell's faces [Pa].
+  CellField<double> set_finite(const FiniteLawAt& law, const std::vector<GapStress>& gaps, const CellField<double>& g,
+                               const std::vector<Vector>& u, double t, double part = 0.0);
+  /// Cells of the sides that have a gradient of their own at finite strain, in their order.
+  std::vector<Index> own_sides_at_finite_strain();
   /// The eigenstrains of the body at the load parameter t, or none; before set_moduli(), set_law() and set_finite().
   /// Returns whether they have changed.
   bool set_eigenstrain(std::optional<double> t);
@@ -68,6 +70,9 @@ class MomentumOperator {
   /// Twice the energy that the eigenstrains of now would store in the undamaged body if nothing moved, at finite strain
   /// by its elasticity at small strain [J].
   double energy_if_held() const;
+  /// Twice the energy that the stresses of viscoelastic cells at finite strain have by their shear moduli: they are
+  /// there also where nothing is prescribed any more [J]. Zero of others.
+  double energy_remembered() const;
   /// Prepares bodies of flat cells that bend (CellReconstruction::relax_flat_cells); before set_moduli().
   void relax_flat_cells();
 

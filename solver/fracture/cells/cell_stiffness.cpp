@@ -1,5 +1,6 @@
 #include "solver/fracture/cells/cell_stiffness.h"
 
+#include "solver/fracture/cells/degraded_heat.h"
 #include "solver/parallel.h"
 
 #include <algorithm>
@@ -18,6 +19,10 @@ CellStiffness::CellStiffness(const Mesh& mesh, const FractureModel& model)
     if (!known.contains(C)) known[C] = std::make_shared<const AnisotropicElasticity>(anisotropic_elasticity(*C));
     anisotropy_[c] = known[C];
   }
+}
+
+CellHistories CellStiffness::virgin_histories() const {
+  return finite_.any() ? finite_.histories().virgin_histories() : materials_.virgin_histories();
 }
 
 void CellStiffness::start_step(double duration) {
@@ -60,11 +65,11 @@ void CellStiffness::set(const FractureState& state, MomentumSolver& momentum) co
   momentum.set_eigenstrain(state.step > 0 ? std::optional(state.load) : std::nullopt);
   if (finite_.any()) {
     const CellField<Mandel>& free = momentum.balance().eigenstrain();
-    const auto law = [&](Index c, const Tensor& H) {
-      return finite_.law(c, H, g[c], state.closure[c],
+    const auto law = [&](Index c, Index own, const Tensor& H) {
+      return finite_.law({c, own}, H, g[c], state.closure[c],
                          free.size() > 0 ? FreeDeformation(to_tensor(free[c])) : FreeDeformation());
     };
-    momentum.set_finite(law, g, state.displacement, state.load);
+    momentum.set_finite(law, finite_.histories().gaps(), g, state.displacement, state.load);
   } else if (is_isotropic_) {
     CellField<IsotropicElasticity> moduli(n);
     parallel_for(mesh_.n_cells(), [&](Index c) { moduli[c] = split(c).secant(elasticity(c), g[c], state.closure[c]); });
@@ -81,7 +86,7 @@ bool CellStiffness::has_degradable_part(Index cell) const {
 
 bool CellStiffness::descends() const {
   for (Index c = 0; c < mesh_.n_cells(); ++c)
-    if (model_.in_cell(mesh_, c).damageable && !(finite_.any() ? !finite_.has_pressure(c) : has_degradable_part(c)))
+    if (model_.in_cell(mesh_, c).damageable && !(finite_.any() ? finite_.descends(c) : has_degradable_part(c)))
       return false;
   return model_.irreversibility != Irreversibility::history && !model_.has_strength();
 }
@@ -150,6 +155,7 @@ HistoryStress CellStiffness::with_histories(const FractureState& state, const Ce
 }
 
 double CellStiffness::integrate(const CellMechanics& mechanics, const FractureState& start, FractureState& state) {
+  if (finite_.any()) finite_.advance(mechanics, factors(state), state.histories);
   if (!materials_.any()) return 0.0;
   return parallel_sum(mesh_.n_cells(), [&](Index c) {
     if (!materials_.has(c)) return 0.0;
@@ -171,7 +177,7 @@ double CellStiffness::driving_energy(Index cell, const CellMechanics& mechanics,
 
 FiniteEnergies CellStiffness::finite_energies(Index cell, const CellMechanics& mechanics,
                                               const FractureState& state) const {
-  return finite_.energies(cell, mechanics, factor(cell, state.damage[cell]));
+  return finite_.energies(cell, mechanics, factor(cell, state.damage[cell]), state.histories);
 }
 
 CellField<FiniteEnergies> CellStiffness::finite_energies(const CellMechanics& mechanics,
@@ -225,16 +231,19 @@ CellField<Mandel> CellStiffness::eigenstrain_moments(const CellMechanics& mechan
 }
 
 double CellStiffness::plastic_dissipation(const FractureState& from, const FractureState& to) const {
-  if (!materials_.any()) return 0.0;
+  if (!materials_.any() && !finite_.histories().any()) return 0.0;
   return parallel_sum(mesh_.n_cells(), [&](Index c) { return plastic_dissipation(c, from, to); });
 }
 
 double CellStiffness::plastic_dissipation(Index cell, const FractureState& from, const FractureState& to) const {
+  if (finite_.any())
+    return finite_.dissipation(cell, from.histories, factor(cell, from.damage[cell]), to.histories,
+                               factor(cell, to.damage[cell]));
   if (!materials_.has(cell)) return 0.0;
   const double g_from = factor(cell, from.damage[cell]), g_to = factor(cell, to.damage[cell]);
   const MaterialEnergy before = materials_.energy(cell, from.histories), after = materials_.energy(cell, to.histories);
-  const double flow = 0.5 * (g_from + g_to) * (after.dissipated - before.dissipated);
-  return mesh_.cell_volume[cell] * (flow + 0.5 * (g_from - g_to) * (before.idle + after.idle));
+  const double flow = degraded_dissipation(g_from, g_to, after.dissipated - before.dissipated);
+  return mesh_.cell_volume[cell] * (flow + freed_energy(g_from, before.idle, g_to, after.idle));
 }
 
 double CellStiffness::follow(const CellMechanics& mechanics, FractureState& state) {

@@ -11,6 +11,8 @@
 #include "solver/momentum/solution/momentum_solver.h"
 
 #include <memory>
+#include <utility>
+#include <vector>
 
 namespace pfdm {
 
@@ -20,6 +22,12 @@ class CellStiffness {
 
   /// Begins a load step, which takes `duration` [s]: clears the memory of how the strains moved in the previous one.
   void start_step(double duration);
+  /// Names the cells of the sides that have a gradient of their own at finite strain; before virgin_histories().
+  void set_own_sides(std::vector<Index> cells) { finite_.set_own_sides(std::move(cells)); }
+  CellHistories virgin_histories() const;
+  /// Has cells at finite strain begin a step of this duration [s] at a state; 0: holds it. Before set() of this state
+  /// or of later ones within the step.
+  void start_from(const FractureState& start, double duration) { finite_.start_from(start.histories, duration); }
   /// The damage that degrades stiffness where it is not the states' own (stiffness_damage.h), for the states that
   /// follow.
   void see(CellField<double> damage) { seen_ = std::move(damage); }

@@ -1,10 +1,11 @@
 #include "solver/fracture/cells/finite_cells.h"
 
 #include "physics/elasticity/plane_stress.h"
-#include "physics/materials/biot_stress.h"
+#include "solver/parallel.h"
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace pfdm {
 namespace {
@@ -20,10 +21,18 @@ PotentialAt sum(double w_a, const PotentialAt& a, double w_b, const PotentialAt&
   return {w_a * a.energy + w_b * b.energy, w_a * a.stress + w_b * b.stress, w_a * a.tangent + w_b * b.tangent};
 }
 
+CellField<const HyperelasticMaterial*> hyperelastic_of(const Mesh& mesh, const FractureModel& model) {
+  CellField<const HyperelasticMaterial*> materials(model.is_finite_strain() ? as_size(mesh.n_cells()) : 0, nullptr);
+  for (Index c = 0; c < materials.size(); ++c)
+    materials[c] = dynamic_cast<const HyperelasticMaterial*>(model.in_cell(mesh, c).material.get());
+  return materials;
+}
+
 }  // namespace
 
-FiniteCells::FiniteCells(const Mesh& mesh, const FractureModel& model) : mesh_(mesh), model_(model) {
-  if (!model.is_finite_strain()) return;
+FiniteCells::FiniteCells(const Mesh& mesh, const FractureModel& model)
+    : mesh_(mesh), model_(model), material_(hyperelastic_of(mesh, model)), histories_(mesh, material_, model) {
+  if (!any()) return;
   using Kind = BoundaryCondition::Kind;
   for (const BoundaryCondition& on : model.boundary)
     if (on.kind == Kind::plane || on.kind == Kind::plane_stress) {
@@ -31,11 +40,9 @@ FiniteCells::FiniteCells(const Mesh& mesh, const FractureModel& model) : mesh_(m
       if (on.kind == Kind::plane_stress) across_ = plane_normal_;
     }
   const std::size_t n = mesh.n_cells();
-  material_ = CellField<const HyperelasticMaterial*>(n, nullptr);
   split_ = CellField<const FiniteSplit*>(n, &finite_split("none"));
   for (Index c = 0; c < mesh.n_cells(); ++c) {
     const RegionModel& region = model.in_cell(mesh, c);
-    material_[c] = dynamic_cast<const HyperelasticMaterial*>(region.material.get());
     if (!region.damageable) continue;
     split_[c] = &finite_split(model.split_of(region).name());
   }
@@ -43,25 +50,32 @@ FiniteCells::FiniteCells(const Mesh& mesh, const FractureModel& model) : mesh_(m
 
 // J - 1 = `change` is that of the cell, as its pressure has it, and H its mean gradient. What the faces add to W_m of H
 // (beside_mean and CellMechanics::energy) contains what J of the cell differs by from det F.
-FiniteCells::Parts FiniteCells::parts(Index cell, const Tensor& H, double change) const {
+FiniteCells::Parts FiniteCells::parts(FinitePlace place, const Tensor& H, double change) const {
+  const Index cell = place.cell;
   const HyperelasticMaterial& material = *material_[cell];
   Parts parts{.moderate = material.moderate_potential(H), .network = network_potential(material, H)};
   const bool may_differ = !split_[cell]->driven_by_compression;
   if (may_differ) parts.compression = material.moderate_compression(H);
   if (material.pressure_modulus() > 0.0)
     parts.pressure = difference(material.potential(H, change), material.moderate_potential(H, change));
+  parts.branches = of_branches(place, H);
   parts.is_compressed = may_differ && change < 0.0;
   return parts;
 }
 
+PotentialAt FiniteCells::of_branches(FinitePlace at, const Tensor& H) const {
+  return histories_.has(at.cell) ? histories_.branches(at.cell).over(H, histories_.before(at)) : PotentialAt();
+}
+
 FiniteCells::Parts FiniteCells::parts(Index cell, const CellMechanics& mechanics, const Tensor& H) const {
   const bool is_swept = mechanics.volume_change.size() > 0 && has_pressure(cell);
-  if (!is_swept) return parts(cell, H, volume_change(H));
-  return parts(cell, H, free_deformation(cell, mechanics).elastic_change(mechanics.volume_change[cell]));
+  if (!is_swept) return parts({cell}, H);
+  return parts({cell}, H, free_deformation(cell, mechanics).elastic_change(mechanics.volume_change[cell]));
 }
 
 PotentialAt FiniteCells::damaged(Index cell, const Parts& at, const FiniteShares& by, double g) const {
-  const PotentialAt degraded = sum(by.moderate.value, at.moderate, by.network.value, at.network);
+  PotentialAt degraded = sum(by.moderate.value, at.moderate, by.network.value, at.network);
+  if (histories_.has(cell)) degraded = sum(1.0, degraded, by.moderate.value, at.branches);
   PotentialAt relaxed = sum(1.0, degraded, by.pressure.value, at.pressure);
   if (!keeps(cell, at)) return relaxed;
   return sum(1.0, relaxed, 1.0, sum(1.0 - g, at.compression, 1.0 - by.pressure.value, at.pressure));
@@ -80,22 +94,44 @@ Tensor FiniteCells::elastic(const Tensor& H, const FreeDeformation& free) const 
 }
 
 // In the stiffness of faces J*/J^2 replaces 1/J_e^2 (FiniteLaw::swelling), and lambda/J* replaces lambda.
-FiniteLaw FiniteCells::law(Index cell, const Tensor& H, double g, double closure, const FreeDeformation& free) const {
+FiniteLaw FiniteCells::law(FinitePlace at, const Tensor& H, double g, double closure,
+                           const FreeDeformation& free) const {
   const Tensor F_e = elastic(H, free);
-  FiniteLaw law = is_plane_stress() ? plane_stress_law(cell, F_e, g) : solid_law(cell, F_e, g, closure);
+  FiniteLaw law = is_plane_stress() ? plane_stress_law(at, F_e, g) : solid_law(at, F_e, g, closure);
   if (free.is_none()) return law;
   const double mean = free.inverse().squaredNorm() / 3.0;  // of m.m
   law.stress = free.stress(law.stress);
   law.A = free.tangent(law.A);
-  law.free_share = free.volume() * mean;
-  law.face.mu *= law.free_share;
+  const double share = free.volume() * mean;
+  law.sound_share *= share;
+  law.memory.share *= share;
+  law.memory.lambda /= free.volume() * share;
+  law.face.mu *= share;
   law.face.lambda /= free.volume();
   law.swelling /= mean;
   law.free_change = free.change();
   return law;
 }
 
-FiniteLaw FiniteCells::solid_law(Index cell, const Tensor& H, double g, double closure) const {
+// What a change of strain and of the gaps meets of the branches in the step.
+void FiniteCells::add_branches(FinitePlace at, const Tensor& H, const FiniteShares& by, FiniteLaw& law) const {
+  if (!histories_.has(at.cell)) return;
+  const HyperelasticMaterial& material = *material_[at.cell];
+  const PotentialAt branches = of_branches(at, H);
+  law.stress += by.moderate.value * branches.stress;
+  law.A += by.moderate.value * branches.tangent;
+  const double mu = histories_.modulus(at.cell), lambda = material.branch_ratio();
+  law.face.mu += by.moderate.value * mu;
+  law.face.lambda += by.moderate.value * lambda * mu;
+  law.memory = {.share = by.moderate.value, .lambda = lambda};
+  law.sound_share = 1.0 + mu / material.elasticity().mu;
+  if (law.pressure == nullptr) return;
+  law.pressure_modulus -= (lambda + 2.0 / 3.0) * mu;
+  law.pressure_left = (lambda + 2.0 / 3.0) * histories_.volume_left(at.cell);
+}
+
+FiniteLaw FiniteCells::solid_law(FinitePlace at, const Tensor& H, double g, double closure) const {
+  const Index cell = at.cell;
   const HyperelasticMaterial& material = *material_[cell];
   const bool keeps = keeps_compression(cell);
   const FiniteShares by = finite_shares(*material_[cell], g);
@@ -114,25 +150,34 @@ FiniteLaw FiniteCells::solid_law(Index cell, const Tensor& H, double g, double c
     law.pressure = &material;
     law.open = by.pressure.value;
     law.closed = keeps ? 1.0 : law.open;
+    law.pressure_modulus = material.pressure_modulus();
     sound.lambda -= material.pressure_modulus();
   }
   sound.mu = w * material.shear_modulus(Tensor::Identity() + H, moderate.tangent, sound.lambda) + (1.0 - w) * sound.mu;
   law.face = {.lambda = w * g * sound.lambda, .mu = g * sound.mu};
   law.swelling = w;
   if (keeps) law.face.lambda += closure * (1.0 - g) * sound.bulk_modulus();
+  add_branches(at, H, by, law);
   return law;
 }
 
 // The stiffness of the faces is that of an incompressible sheet at F = 1, (3 mu c c^T + mu)/h, c being the cofactor
 // within the plane.
-FiniteLaw FiniteCells::plane_stress_law(Index cell, const Tensor& H, double g) const {
+FiniteLaw FiniteCells::plane_stress_law(FinitePlace place, const Tensor& H, double g) const {
+  const Index cell = place.cell;
   const FiniteShares by = finite_shares(*material_[cell], g);
   const Tensor nn = across_ * across_.transpose();
-  const PotentialAt at = damaged(cell, parts(cell, thinned(cell, H, g)), by, g);
-  const IsotropicElasticity sound = plane_stress(material_[cell]->elasticity());
+  const PotentialAt at = damaged(cell, parts(place, thinned(place, H, g)), by, g);
+  IsotropicElasticity whole = material_[cell]->elasticity();
+  const double of_branches = histories_.has(cell) ? histories_.modulus(cell) : 0.0;
+  whole.mu += of_branches;
+  whole.lambda -= 2.0 / 3.0 * of_branches;
+  const IsotropicElasticity sound = plane_stress(whole);
   const double w = by.moderate.value / g;
   FiniteLaw law{.stress = at.stress, .A = at.tangent, .face = {.lambda = 0.0, .mu = g * sound.mu}};
   law.swelling = w * (sound.lambda + sound.mu) / sound.mu;
+  if (histories_.has(cell)) law.memory = {.share = by.moderate.value, .lambda = 0.0};
+  law.sound_share = sound.mu / material_[cell]->elasticity().mu;
   const Components pull = at.tangent * to_components(nn), thin = at.tangent.transpose() * to_components(nn);
   const double stiffness = contract(nn, from_components(pull));
   if (std::abs(contract(nn, at.stress)) <= 1e-6 * g * sound.mu) law.A -= pull * thin.transpose() / stiffness;
@@ -141,15 +186,16 @@ FiniteLaw FiniteCells::plane_stress_law(Index cell, const Tensor& H, double g) c
 
 // With the stretch across a plate at which there is no stress across it, or the least thickness: of a network, which
 // pulls at any, and of cells turned inside out.
-Tensor FiniteCells::thinned(Index cell, const Tensor& H, double g) const {
+Tensor FiniteCells::thinned(FinitePlace place, const Tensor& H, double g) const {
   if (!is_plane_stress()) return H;
+  const Index cell = place.cell;
   constexpr Index most_steps = 80;
   constexpr double rounding = 1e-15;
   const FiniteShares by = finite_shares(*material_[cell], g);
   const Tensor nn = across_ * across_.transpose();
   double strain = 0.0;
   for (Index k = 0; k < most_steps; ++k) {
-    const PotentialAt at = damaged(cell, parts(cell, H + strain * nn), by, g);
+    const PotentialAt at = damaged(cell, parts(place, H + strain * nn), by, g);
     const double stiffness = contract(nn, from_components(at.tangent * to_components(nn)));
     const double next = std::max(strain - contract(nn, at.stress) / stiffness, least_thickness - 1.0);
     const bool there = std::abs(next - strain) <= rounding * (std::abs(strain) + H.norm());
@@ -160,7 +206,7 @@ Tensor FiniteCells::thinned(Index cell, const Tensor& H, double g) const {
 }
 
 Tensor FiniteCells::thinned_elastic(Index cell, const CellMechanics& mechanics, double g) const {
-  return thinned(cell, elastic(mechanics.gradient[cell], free_deformation(cell, mechanics)), g);
+  return thinned({cell}, elastic(mechanics.gradient[cell], free_deformation(cell, mechanics)), g);
 }
 
 Tensor FiniteCells::thinned(Index cell, const CellMechanics& mechanics, double g) const {
@@ -174,117 +220,24 @@ double FiniteCells::closure(Index cell, const CellMechanics& mechanics) const {
   return std::clamp(-volume_change(F_e) / closing_range, 0.0, 1.0);
 }
 
-// Half the work of what the tractions' stress is beyond that of the mean gradient, of cells with a pressure, and of all
-// cells of a body with eigenstrains, whose stress may vary much within thin cells around what does not fit [J/m^3]:
-// 1/2 (P - P(H)):(F_e - R) F*, R being the rotation in F_e. In bonded layers that are a few cells thick it is 1 to 5 %
-// of the energy. Of undamageable regions: among the cells along a crack it would drive damage, and cracks grew at
-// forces that were 6 % lower.
-double FiniteCells::beside_mean(Index cell, const CellMechanics& mechanics, const Parts& at, double g) const {
-  const bool is_pressed = mechanics.moderate_stress.size() > 0 && has_pressure(cell);
-  if (!is_pressed && mechanics.eigenstrain.size() == 0) return 0.0;
-  if (model_.in_cell(mesh_, cell).damageable) return 0.0;
-  Parts moderate = at;
-  moderate.pressure = {};
-  const Tensor& P = is_pressed ? mechanics.moderate_stress[cell] : mechanics.stress[cell];
-  const FreeDeformation free = free_deformation(cell, mechanics);
-  const Tensor elastic_stress = damaged(cell, moderate, finite_shares(*material_[cell], g), g).stress;
-  Tensor excess = P - free.stress(elastic_stress);
-  excess -= plane_normal_.dot(excess * plane_normal_) * plane_normal_ * plane_normal_.transpose();  // no faces there
-  const Tensor F_e = Tensor::Identity() + elastic(mechanics.gradient[cell], free);
-  return 0.5 * contract(excess, stretch_part(F_e) * free.stretch());
+void FiniteCells::set_own_sides(std::vector<Index> cells) {
+  cells_of_own_ = cells;
+  histories_.set_own_sides(std::move(cells));
 }
 
-// The moments of tractions in cells without a pressure count in the account alone: the rotation of the whole body is in
-// them, which cannot drive the damage of a cell.
-FiniteEnergies FiniteCells::energies(Index cell, const CellMechanics& mechanics, double g) const {
-  const Parts at = parts(cell, mechanics, thinned_elastic(cell, mechanics, g));
-  const double volume = free_deformation(cell, mechanics).volume();
-  const double V = mesh_.cell_volume[cell],
-               moments = mechanics.moment_work.size() > 0 ? mechanics.moment_work[cell] : 0.0;
-  const bool drive = has_pressure(cell) || !model_.in_cell(mesh_, cell).damageable;
-  return {.moderate = volume * at.moderate.energy,
-          .network = volume * at.network.energy,
-          .pressure = volume * at.pressure.energy,
-          .compression = volume * at.compression.energy,
-          .is_compressed = at.is_compressed,
-          .faces = (mechanics.energy[cell] + (drive ? moments : 0.0)) / V + beside_mean(cell, mechanics, at, g),
-          .of = g,
-          .moments = drive ? 0.0 : moments / V};
-}
-
-double FiniteCells::stored_energy(Index cell, const FiniteEnergies& at, double g) const {
-  const FiniteShares by = finite_shares(*material_[cell], g);
-  const bool whole = keeps(cell, at);
-  const double kept = whole ? (1.0 - g) * at.compression : 0.0;
-  const double density = by.moderate.value * at.moderate + by.network.value * at.network + kept +
-                         (whole ? 1.0 : by.pressure.value) * at.pressure + at.faces + at.moments;
-  return mesh_.cell_volume[cell] * density;
-}
-
-// W_c is taken off where compression does not drive, as it is degraded: by 1 with a split that keeps it, else by the
-// share of W_m. The energy of the faces is taken as proportional to g where nothing is kept. In a cell that is driven
-// less by compression it must not end at J = 1: its damage would go to and fro.
-DrivingAt FiniteCells::driving_energy(Index cell, const FiniteEnergies& at, double g) const {
-  const FiniteShares by = finite_shares(*material_[cell], g);
-  const bool whole = keeps(cell, at);
-  const FiniteShare off = whole ? FiniteShare{.value = g, .slope = 1.0} : by.moderate;
-  const double pressure = at.is_compressed ? 0.0 : at.pressure, faces = whole ? 0.0 : at.faces / at.of;
-  const double value = by.moderate.slope * at.moderate + by.network.slope * at.network - off.slope * at.compression +
-                       by.pressure.slope * pressure + faces;
-  if (value <= 0.0) return {};
-  return {.value = value,
-          .slope = by.moderate.curvature * at.moderate + by.network.curvature * at.network -
-                   off.curvature * at.compression + by.pressure.curvature * pressure};
-}
-
-Tensor FiniteCells::undamaged_biot_stress(Index cell, const CellMechanics& mechanics, double g) const {
-  const Tensor H = thinned_elastic(cell, mechanics, g);
-  const Parts at = parts(cell, mechanics, H);
-  const FiniteShares by = finite_shares(*material_[cell], g);
-  const PotentialAt whole = sum(by.moderate.value / g, at.moderate, by.network.value / g, at.network);
-  return biot_stress(H, whole.stress + (keeps(cell, at) ? 1.0 : by.pressure.value / g) * at.pressure.stress);
-}
-
-// The deformation gradient for the Cauchy stress. A broken sheet, a network, has next to no thickness: it counts as
-// thick as a sound one at the same stretch, and where it is turned inside out as thick as at rest.
-Tensor FiniteCells::true_deformation(Index cell, const Tensor& H, double g) const {
-  Tensor thin = Tensor::Identity() + thinned(cell, H, g);
-  if (!is_plane_stress()) return thin;
-  const Tensor nn = across_ * across_.transpose();
-  const bool is_turned = volume_change(H - contract(nn, H) * nn) <= -1.0;
-  const double sound = is_turned ? 1.0 : 1.0 + contract(nn, thinned(cell, H, 1.0));
-  return thin + std::max(sound - contract(nn, thin), 0.0) * nn;
-}
-
-// First Piola-Kirchhoff.
-Tensor FiniteCells::traction_stress(Index cell, const CellMechanics& mechanics, double g,
-                                    const Vector& plane_normal) const {
-  const Tensor& P = mechanics.stress[cell];
-  if (plane_normal.isZero()) return P;
-  const Tensor across = plane_normal * plane_normal.transpose();
-  const Parts at = parts(cell, mechanics, thinned_elastic(cell, mechanics, g));
-  const Tensor of_law =
-      free_deformation(cell, mechanics).stress(damaged(cell, at, finite_shares(*material_[cell], g), g).stress);
-  return P + across * (of_law - P) * across;
-}
-
-// The energy of the faces is not one of F*.
-Tensor FiniteCells::eigenstrain_moment(Index cell, const CellMechanics& mechanics, double g,
-                                       const Vector& plane_normal) const {
-  FiniteEnergies mean = energies(cell, mechanics, g);
-  mean.faces = 0.0;
-  const Tensor P = traction_stress(cell, mechanics, g, plane_normal);
-  const double energy = stored_energy(cell, mean, g) / mesh_.cell_volume[cell];
-  const Tensor slope = free_deformation(cell, mechanics).energy_slope(energy, P, thinned(cell, mechanics, g));
-  return -mesh_.cell_volume[cell] * symmetric_part(slope);
-}
-
-Tensor FiniteCells::cauchy_stress(Index cell, const CellMechanics& mechanics, double g,
-                                  const Vector& plane_normal) const {
-  const Tensor P = traction_stress(cell, mechanics, g, plane_normal);
-  const FreeDeformation free = free_deformation(cell, mechanics);
-  const Tensor F = true_deformation(cell, elastic(mechanics.gradient[cell], free), g) * free.stretch();
-  return symmetric_part(P * F.transpose() / F.determinant());
+void FiniteCells::advance(const CellMechanics& mechanics, const CellField<double>& g, CellHistories& to) const {
+  if (!histories_.any()) return;
+  const Index n_cells = mesh_.n_cells();
+  parallel_for(count_of(mechanics.gradients_of_laws), [&](Index k) {
+    const FinitePlace at = k < n_cells ? FinitePlace{k} : FinitePlace{cells_of_own_[k - n_cells], k - n_cells};
+    if (!histories_.has(at.cell)) return;
+    const FreeDeformation free = free_deformation(at.cell, mechanics);
+    histories_.advance(at, thinned(at, elastic(mechanics.gradients_of_laws[k], free), g[at.cell]), to);
+    if (k >= n_cells) return;
+    const bool has_volume = mechanics.volume_change.size() > 0;
+    const double change = has_volume ? free.elastic_change(mechanics.volume_change[k]) : 0.0;
+    histories_.advance_gaps(k, mechanics.gaps, change, to);
+  });
 }
 
 }  // namespace pfdm

@@ -18,11 +18,15 @@
 // Cells that expand, swell or shrink (eigenstrains): F above is the elastic part F_e of F = F_e F*, and energies are J*
 // times those of F_e per reference volume (physics/materials/free_deformation.h). A cell's pressure acts as without, on
 // the volume J* J_e(q). With m = F*^-T N the acoustic tensor of the faces is J* (mu m.m + ...), by the mean of m.m.
+//
+// Viscoelastic materials: the energy of the branches is degraded as W_m is, and their stress that of the step from its
+// start (finite_histories.h). Closed cracks keep the elastic W_c.
 
 #include "mesh/mesh.h"
 #include "physics/materials/free_deformation.h"
 #include "physics/materials/hyperelastic.h"
 #include "solver/fracture/cells/finite_degradation.h"
+#include "solver/fracture/cells/finite_histories.h"
 #include "solver/fracture/model/driving_law.h"
 #include "solver/fracture/model/fracture_model.h"
 #include "solver/fracture/model/state.h"
@@ -33,10 +37,15 @@ namespace pfdm {
 /// The energies of a cell at some displacements, each of which has its share by the damage [J/m^3].
 struct FiniteEnergies {
   double moderate = 0.0, network = 0.0, pressure = 0.0;
+  double branches = 0.0;         ///< of viscoelastic materials, degraded as the moderate one
+  bool branches_drive = false;   ///< the damage
+  double locked = 0.0;           ///< stored in gaps beyond half the work of their tractions, likewise
   double compression = 0.0;      ///< W_c, of the moderate one, where compression does not drive the damage
   bool is_compressed = false;    ///< there, and J < 1
   double faces = 0.0, of = 1.0;  ///< energy of the faces, at the g with which the displacements were found
-  double moments = 0.0;          ///< of the moments of the faces, where these do not drive the damage
+  /// Shares of the energies of the faces and of the pressure that drive the damage: less than 1 where branches do not.
+  double faces_drive = 1.0, pressure_drive = 1.0;
+  double moments = 0.0;  ///< of the moments of the faces, where these do not drive the damage
 };
 
 class FiniteCells {
@@ -45,15 +54,27 @@ class FiniteCells {
 
   bool any() const { return material_.size() > 0; }
   bool has_pressure(Index cell) const { return material_[cell]->pressure_modulus() > 0.0; }
-  /// Law at the displacement gradient H and the stiffness factor g. The faces are as stiff as `closure` says: 1 where
-  /// J_e < 1 and the split keeps the bulk modulus, 0 where J_e > 1.
-  FiniteLaw law(Index cell, const Tensor& H, double g, double closure, const FreeDeformation& free = {}) const;
+  /// Whether the driving energy is nearly the derivative of the discrete one: a pressure is lost faster than the
+  /// stiffness, and branches dissipate.
+  bool descends(Index cell) const { return !has_pressure(cell) && !histories_.has(cell); }
+  /// Law of a place at the displacement gradient H and the stiffness factor g. The faces are as stiff as `closure`
+  /// says: 1 where J_e < 1 and the split keeps the bulk modulus, 0 where J_e > 1.
+  FiniteLaw law(FinitePlace at, const Tensor& H, double g, double closure, const FreeDeformation& free = {}) const;
+  const FiniteHistories& histories() const { return histories_; }
+  void set_own_sides(std::vector<Index> cells);
+  /// Begins a step at these histories, which takes `duration` [s]; 0: holds them. Laws and energies are those of it.
+  void start_from(const CellHistories& start, double duration) { histories_.start_from(start, duration); }
+  /// Takes the histories of viscoelastic cells, with the stiffness factors g, to the deformation of now.
+  void advance(const CellMechanics& mechanics, const CellField<double>& g, CellHistories& to) const;
+  /// Heat of the branches of a cell from one history to another while its factor went from g_from to g_to, with what
+  /// damage frees of them without being driven by it [J].
+  double dissipation(Index cell, const CellHistories& from, double g_from, const CellHistories& to, double g_to) const;
   /// The closure at the volume J_e, which changes over a range of J_e: the stiffness of the faces may not jump.
   double closure(Index cell, const CellMechanics& mechanics) const;
 
   /// Energies of a cell by its mean gradient and by its faces, the work of whose tractions comes on top (momentum.h).
-  /// g: factor with which the displacements were found.
-  FiniteEnergies energies(Index cell, const CellMechanics& mechanics, double g) const;
+  /// g: factor with which the displacements were found; now: histories there, none of elastic cells.
+  FiniteEnergies energies(Index cell, const CellMechanics& mechanics, double g, const CellHistories& now = {}) const;
   /// Energy that a cell stores [J].
   double stored_energy(Index cell, const FiniteEnergies& at, double g) const;
   /// Derivative of the stored energy by g, per volume, and its own derivative by g [J/m^3].
@@ -75,23 +96,26 @@ class FiniteCells {
   Tensor cauchy_stress(Index cell, const CellMechanics& mechanics, double g, const Vector& plane_normal) const;
 
  private:
-  // Undamaged, at some F_e - 1 = H: W_m, the network's, c U, and where the split asks for it W_c of W_m and whether J
-  // < 1.
+  // Undamaged, at some F_e - 1 = H: W_m, the network's, c U, that of branches, and where the split asks for it W_c of
+  // W_m and whether J < 1.
   struct Parts {
-    PotentialAt moderate, network, pressure{}, compression{};
+    PotentialAt moderate, network, pressure{}, compression{}, branches{};
     bool is_compressed = false;
   };
-  Parts parts(Index cell, const Tensor& H, double change) const;
-  Parts parts(Index cell, const Tensor& H) const { return parts(cell, H, volume_change(H)); }
+  Parts parts(FinitePlace at, const Tensor& H, double change) const;
+  Parts parts(FinitePlace at, const Tensor& H) const { return parts(at, H, volume_change(H)); }
   Parts parts(Index cell, const CellMechanics& mechanics, const Tensor& H) const;
+  FiniteEnergies mean_energies(Index cell, const CellMechanics& mechanics, const Parts& at) const;
   double beside_mean(Index cell, const CellMechanics& mechanics, const Parts& at, double g) const;
   bool is_plane_stress() const { return !across_.isZero(); }
   static FreeDeformation free_deformation(Index cell, const CellMechanics& mechanics);
   Tensor elastic(const Tensor& H, const FreeDeformation& free) const;
   Tensor thinned_elastic(Index cell, const CellMechanics& mechanics, double g) const;
-  FiniteLaw solid_law(Index cell, const Tensor& H, double g, double closure) const;
-  FiniteLaw plane_stress_law(Index cell, const Tensor& H, double g) const;
-  Tensor thinned(Index cell, const Tensor& H, double g) const;
+  PotentialAt of_branches(FinitePlace at, const Tensor& H) const;
+  FiniteLaw solid_law(FinitePlace at, const Tensor& H, double g, double closure) const;
+  void add_branches(FinitePlace at, const Tensor& H, const FiniteShares& by, FiniteLaw& law) const;
+  FiniteLaw plane_stress_law(FinitePlace at, const Tensor& H, double g) const;
+  Tensor thinned(FinitePlace at, const Tensor& H, double g) const;
   Tensor true_deformation(Index cell, const Tensor& H, double g) const;
   Tensor traction_stress(Index cell, const CellMechanics& mechanics, double g, const Vector& plane_normal) const;
   bool keeps_compression(Index cell) const { return split_[cell]->keeps_compression; }
@@ -103,8 +127,10 @@ class FiniteCells {
   const FractureModel& model_;
   CellField<const HyperelasticMaterial*> material_;  // empty at small strain
   CellField<const FiniteSplit*> split_;              // empty at small strain
-  Vector across_ = Vector::Zero();                   // normal of a plate in plane stress
-  Vector plane_normal_ = Vector::Zero();             // of a plane mesh
+  FiniteHistories histories_;
+  std::vector<Index> cells_of_own_;
+  Vector across_ = Vector::Zero();        // normal of a plate in plane stress
+  Vector plane_normal_ = Vector::Zero();  // of a plane mesh
 };
 
 }  // namespace pfdm

@@ -40,7 +40,8 @@ FiniteShare sound_share(const HyperelasticMaterial& material, double g) {
 
 // Share of the volumetric energy c U that is left to a material with a pressure: g w/(1 + kappa/kappa_s (1 - g)^2).
 FiniteShare pressure_share(const HyperelasticMaterial& material, double g, const FiniteShare& sound) {
-  const double ratio = material.pressure_modulus() / (CellPressure::moderate_lambda * material.elasticity().mu);
+  const double ratio =
+      material.pressure_modulus() / (CellPressure::moderate_lambda * material.instantaneous_shear_modulus());
   const double lost = 1.0 - g, by = 1.0 + ratio * lost * lost, by_slope = -2.0 * ratio * lost;
   const double value = sound.value / by, slope = (sound.slope - value * by_slope) / by;
   const double curvature = (sound.curvature - 2.0 * slope * by_slope - 2.0 * ratio * value) / by;

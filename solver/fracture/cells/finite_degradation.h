@@ -12,8 +12,9 @@
 //   degradation; at smaller stretches it is not.
 // - Nearly incompressible materials cannot open a crack without moving their surroundings. The part of U that a
 //   pressure carries (hyperelastic.h) is lost faster than g, kappa -> g kappa/(1 + kappa/kappa_s (1 - g)^2) with
-//   kappa_s = 2.5 mu: a sound cell loses it as W, a broken one is compressible. (Li, Bouklas, Int. J. Solids Struct.
-//   182-183 (2020) 193, relax it by another power of 1 - d.) What is left of it is not convex in d at small d.
+//   kappa_s = 2.5 mu, mu with all branches: a sound cell loses it as W, a broken one is compressible. (Li, Bouklas,
+//   Int. J. Solids Struct. 182-183 (2020) 193, relax it by another power of 1 - d.) What is left of it is not convex in
+//   d at small d.
 // - What Newton's method cannot bridge of a change of the damage is halved (staggered.cpp).
 
 #include "physics/materials/hyperelastic.h"

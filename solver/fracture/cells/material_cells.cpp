@@ -58,7 +58,9 @@ double MaterialCells::advance(Index cell, const CellMechanics& mechanics, const 
   const MaterialResponse result =
       material.update({from.gradient(cell), strain, duration_, law_numbers(cell, from)}, to.of(cell).first(n));
   if (!result.solved) return std::numeric_limits<double>::quiet_NaN();
-  if (gaps_.has(cell)) gaps_.advance(cell, mechanics, gap_numbers(cell, from), to.of(cell).subspan(n));
+  if (gaps_.has(cell))
+    gaps_.advance(cell, mechanics.volume_changes[cell], mechanics.gaps, gap_numbers(cell, from),
+                  to.of(cell).subspan(n));
   to.gradient(cell) = strain;
   tangent_[cell] = by_strain(result.tangent);
   const Mandel stress = to_mandel(result.stress);
@@ -87,7 +89,7 @@ HistoryStress MaterialCells::history_stress(const CellHistories& histories) cons
   history.gaps.resize(mesh_.cell_faces.size());
   parallel_for(mesh_.n_cells(), [&](Index c) {
     history.sound[c] = model_.in_cell(mesh_, c).elasticity;
-    if (gaps_.has(c)) gaps_.tell(c, gap_numbers(c, histories), history);
+    if (gaps_.has(c)) gaps_.tell(c, gap_numbers(c, histories), RelaxingGaps::At::end, history);
   });
   return history;
 }

@@ -47,7 +47,9 @@ void advance_volumes(const std::vector<PronyDecay>& shear, const VolumeChanges& 
 }  // namespace
 
 bool gaps_relax(const Material& material, const FractureModel& model) {
-  if (material.relaxing() == nullptr || model.is_plane_stress()) return false;
+  if (material.relaxing() == nullptr) return false;
+  if (material.is_finite_strain()) return true;
+  if (model.is_plane_stress()) return false;
   return model.is_isotropic() || !relaxes_with_pressure(material);
 }
 
@@ -61,7 +63,8 @@ RelaxingGaps::RelaxingGaps(const Mesh& mesh, const CellField<const Material*>& m
     const auto [at, is_new] = kind_of.try_emplace(material, -1);
     if (is_new && material != nullptr && gaps_relax(*material, model)) {
       at->second = count_of(kinds_);
-      kinds_.push_back({.law = material->relaxing(), .has_pressure = relaxes_with_pressure(*material)});
+      const bool has_pressure = relaxes_with_pressure(*material) && !model.is_plane_stress();
+      kinds_.push_back({.law = material->relaxing(), .has_pressure = has_pressure});
     }
     kind_[c] = at->second;
   }
@@ -84,7 +87,10 @@ std::size_t RelaxingGaps::size(Index cell) const {
   return by.per_cell() + mesh_.faces_of_cell(cell).size() * by.per_face();
 }
 
-void RelaxingGaps::tell(Index cell, std::span<const double> numbers, HistoryStress& history) const {
+void RelaxingGaps::tell(Index cell, std::span<const double> numbers, At when, HistoryStress& history) const {
+  const auto remainder = [when](const PronyDecay& of, const auto& spring, const auto& strain) {
+    return when == At::end ? of.remainder(spring, strain) : of.remainder_after(spring, strain);
+  };
   const Kind& by = kind(cell);
   const std::size_t n_shear = by.law->shear.size(), n_bulk = by.law->bulk.size();
   history.sound[cell] = by.elasticity;
@@ -92,8 +98,8 @@ void RelaxingGaps::tell(Index cell, std::span<const double> numbers, HistoryStre
   for (std::size_t i = 0; by.has_pressure && i < n_shear; ++i) {
     const double modulus = by.law->shear[i].modulus;
     const std::span<const double> springs = numbers.subspan(branches_from + 2 * i, 2);
-    history.volumes[cell].by_gradient += modulus * by.shear[i].remainder(springs[0], numbers[volumes_from]);
-    history.volumes[cell].by_flux += modulus * by.shear[i].remainder(springs[1], numbers[volumes_from + 1]);
+    history.volumes[cell].by_gradient += modulus * remainder(by.shear[i], springs[0], numbers[volumes_from]);
+    history.volumes[cell].by_flux += modulus * remainder(by.shear[i], springs[1], numbers[volumes_from + 1]);
   }
   const auto faces = mesh_.faces_of_cell(cell);
   const std::size_t first = mesh_.cell_face_offsets[cell];
@@ -102,18 +108,18 @@ void RelaxingGaps::tell(Index cell, std::span<const double> numbers, HistoryStre
     const Vector z = vector_at(numbers, at);
     GapStress& left = history.gaps[first + k];
     for (std::size_t i = 0; i < n_shear; ++i)
-      left.shear += by.law->shear[i].modulus * by.shear[i].remainder(Vector(vector_at(numbers, at + 3 + 3 * i)), z);
+      left.shear += by.law->shear[i].modulus * remainder(by.shear[i], Vector(vector_at(numbers, at + 3 + 3 * i)), z);
     const double along = z.dot(mesh_.face_area[faces[k]].normalized());
     for (std::size_t j = 0; j < n_bulk; ++j)
-      left.bulk += by.law->bulk[j].modulus * by.bulk[j].remainder(numbers[at + 3 + 3 * n_shear + j], along);
+      left.bulk += by.law->bulk[j].modulus * remainder(by.bulk[j], numbers[at + 3 + 3 * n_shear + j], along);
   }
 }
 
-void RelaxingGaps::advance(Index cell, const CellMechanics& mechanics, std::span<const double> from,
-                           std::span<double> to) const {
+void RelaxingGaps::advance(Index cell, const VolumeChanges& changes, const std::vector<FaceGap>& gaps,
+                           std::span<const double> from, std::span<double> to) const {
   const Kind& by = kind(cell);
   const std::size_t n_shear = by.law->shear.size(), n_bulk = by.law->bulk.size();
-  if (by.has_pressure) advance_volumes(by.shear, mechanics.volume_changes[cell], from, to);
+  if (by.has_pressure) advance_volumes(by.shear, changes, from, to);
   Energy sum;
   const auto add = [&](const Energy& of, double volume) {
     sum.locked += of.locked * volume;
@@ -122,7 +128,7 @@ void RelaxingGaps::advance(Index cell, const CellMechanics& mechanics, std::span
   const auto faces = mesh_.faces_of_cell(cell);
   const std::size_t first = mesh_.cell_face_offsets[cell];
   for (std::size_t k = 0; k < faces.size(); ++k) {
-    const FaceGap& gap = mechanics.gaps[first + k];
+    const FaceGap& gap = gaps[first + k];
     const std::size_t at = by.per_cell() + k * by.per_face();
     const Vector n = mesh_.face_area[faces[k]].normalized(), z_n = vector_at(from, at), z = gap.strain;
     const auto dot = [&](const Vector& a, const Vector& b) {

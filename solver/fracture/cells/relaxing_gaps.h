@@ -7,7 +7,8 @@
 // bears the difference (CellMechanics::volume_changes), relaxes as the shear modulus does. So every term of the
 // discrete body is that of the elastic one with relaxing moduli (correspondence principle): what is stable for all
 // elastic moduli is stable in time. With an elastic K_s, or with both remainders in the pressures, which are
-// extrapolated to the faces, rough modes grew. Bodies in plane stress have none of it (gaps_relax).
+// extrapolated to the faces, rough modes grew. Bodies in plane stress have none of it at small strain (gaps_relax). At
+// finite strain gaps are turned back with their cell (finite_memory.h).
 //
 // Half the work of traction and gap is part of a cell's energy. Energies here are per volume of the cell [J/m^3].
 
@@ -23,8 +24,8 @@
 
 namespace pfdm {
 
-/// Whether the gaps of a material relax in a body: it does so itself, not in plane stress (history_tractions.h), and
-/// where its cells need a pressure (relaxes_with_pressure) the body has one.
+/// Whether the gaps of a material relax in a body: it does so itself, at small strain not in plane stress
+/// (history_tractions.h), and where its cells need a pressure (relaxes_with_pressure) the body has one.
 bool gaps_relax(const Material& material, const FractureModel& model);
 
 class RelaxingGaps {
@@ -40,10 +41,13 @@ class RelaxingGaps {
 
   /// Moduli that a change of strain meets in the step, undamaged.
   const IsotropicElasticity& elasticity(Index cell) const { return kind(cell).elasticity; }
+  /// The time in a step of which numbers are.
+  enum class At { start, end };
   /// Writes what a cell remembers into a history with room for all cells.
-  void tell(Index cell, std::span<const double> numbers, HistoryStress& history) const;
-  /// From the numbers at the start of the step to those at the gaps of now.
-  void advance(Index cell, const CellMechanics& mechanics, std::span<const double> from, std::span<double> to) const;
+  void tell(Index cell, std::span<const double> numbers, At at, HistoryStress& history) const;
+  /// From the numbers at the start of the step to those at the volume changes of now and the gaps, as Mesh::cell_faces.
+  void advance(Index cell, const VolumeChanges& changes, const std::vector<FaceGap>& gaps, std::span<const double> from,
+               std::span<double> to) const;
 
   /// Heat of the gaps since the virgin state, and their stored energy less half of the work of their traction [J/m^3].
   static double dissipated(std::span<const double> numbers) { return numbers[0]; }

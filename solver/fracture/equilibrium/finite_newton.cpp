@@ -1,5 +1,6 @@
 #include "solver/fracture/equilibrium/finite_newton.h"
 
+#include "physics/materials/potential.h"
 #include "solver/momentum/finite_strain/finite_tractions.h"
 #include "solver/parallel.h"
 
@@ -68,7 +69,7 @@ struct LineSearch {
 }  // namespace
 
 bool inverts(const MomentumOperator& balance) {
-  constexpr double least_volume = 0.1, damaged = 0.5;
+  constexpr double damaged = 0.5;
   if (balance.finite() == nullptr) return false;
   const FiniteStates& states = balance.finite()->states();
   return parallel_sum(states.deformation().size(), [&](Index c) {

@@ -107,7 +107,9 @@ std::optional<VolumeLaw> of_relaxing(const Material& material, VolumeLaws& known
 std::optional<VolumeLaw> volume_law(const RegionModel& region, VolumeLaws& known) {
   const Material* material = region.material.get();
   if (material == nullptr) return VolumeLaw{.elasticity = region.elasticity};
-  if (!material->has_linear_volume()) return std::nullopt;
+  if (material->is_finite_strain() && material->relaxing() == nullptr)
+    return VolumeLaw{.elasticity = material->elasticity()};
+  if (!material->has_linear_volume() && !material->is_finite_strain()) return std::nullopt;
   if (material->relaxing() != nullptr) return of_relaxing(*material, known);
   return VolumeLaw{.elasticity = region.elasticity};
 }
@@ -148,7 +150,7 @@ ElasticBody elastic_body(const FractureModel& model) {
   body.motion = model.motion;
   body.loads = volume_loads(model);
   body.has_pressure = model.is_isotropic();
-  if (!model.is_finite_strain()) body.volume_law = volume_laws(model);
+  body.volume_law = volume_laws(model);
   return body;
 }
 

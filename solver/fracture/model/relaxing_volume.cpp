@@ -18,6 +18,7 @@ PoissonRange poisson_range(const Material& material) {
   };
   const IsotropicElasticity relaxed = material.relaxed_elasticity();
   consider(relaxed);
+  consider(instantaneous_elasticity(*law));
   if (law->shear.empty() || law->bulk.empty()) return range;  // nu rises or falls all the time
   const auto left = [](const std::vector<PronyBranch>& branches, double time) {
     double sum = 0.0;

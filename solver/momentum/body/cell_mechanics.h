@@ -9,12 +9,19 @@
 namespace pfdm {
 
 /// Difference of the strain of a cell at one of its faces from that of the cell, as the tractions of bodies with a
-/// history have it: (u_f - u_c - G d)/h, borne by (sym(gap n^T) : C) n.
+/// history have it: (u_f - u_c - G d)/h, borne by (sym(gap n^T) : C) n. At finite strain turned back with the cell.
 struct FaceGap {
   Vector strain = Vector::Zero();  ///< [-]
   double volume = 0.0;             ///< A h [m^3]: half of it times traction and gap is an energy; 0: there is no force
   double by_shear = 0.0;           ///< stiffness along the normal over the shear modulus, and
   double by_bulk = 0.0;            ///< over the bulk modulus besides
+};
+
+/// Stress that a relaxing material has on a face where the strain there does not differ from the cell's. It is shear
+/// moduli times the remainder of earlier gaps (CellMechanics::gaps), and bulk moduli times that along the normal.
+struct GapStress {
+  Vector shear = Vector::Zero();  ///< [Pa]
+  double bulk = 0.0;              ///< [Pa]
 };
 
 /// Volume change of a relaxing cell with a pressure: by its gradient and by the flux through its faces [-]; zero in
@@ -51,6 +58,9 @@ struct CellMechanics {
   /// Strain by least squares, as used in the tractions of the faces, with the volume change that belongs to the
   /// pressure in cells that have one [-]; empty unless some material is linearised.
   CellField<Tensor> reconstructed_strain{};
+  /// Displacement gradients at which the laws of finite strain were taken, of the cells and then of the sides that have
+  /// their own [-]; empty without relaxing materials.
+  std::vector<Tensor> gradients_of_laws{};
   CellField<VolumeChanges> volume_changes{};  ///< empty without relaxing materials
   std::vector<FaceGap> gaps{};                ///< as Mesh::cell_faces; empty without relaxing materials
   /// Volume change J - 1 at finite strain, in nearly incompressible bodies [-]: in cells with a pressure by the volume

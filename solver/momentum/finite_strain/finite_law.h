@@ -18,17 +18,26 @@ struct FiniteLaw {
   /// are left where q > 0 and where q < 0.
   const HyperelasticMaterial* pressure = nullptr;
   double open = 1.0, closed = 1.0;
-  double free_change = 0.0;  ///< of their volume, J* - 1 of the free deformation F*
-  double free_share = 1.0;   ///< mu of the faces with F* over that without
+  double pressure_modulus = 0.0;  ///< of it, undamaged, that a change of volume meets in the step [Pa]
+  double pressure_left = 0.0;     ///< of q: minus what it is at J = 1 by earlier changes [Pa]; of viscoelastic cells
+  double free_change = 0.0;       ///< of their volume, J* - 1 of the free deformation F*
+  double sound_share = 1.0;       ///< mu of the undamaged faces, with F* and branches, over that of the elasticity
+  /// What gaps meet of the branches of a viscoelastic cell (finite_memory.h).
+  struct Memory {
+    double share = 0.0;   ///< of their stress that is left by damage; 0: there are none
+    double lambda = 0.0;  ///< over mu
+  } memory{};
 
   VolumeAt volume(double q) const {
-    const VolumeAt elastic = pressure->volume(q, q > 0.0 ? open : closed);
+    const double share = q > 0.0 ? open : closed;
+    const VolumeAt elastic = pressure->volume(q + share * pressure_left, share * pressure_modulus);
     const double free = 1.0 + free_change;
     return {free_change + free * elastic.change, free * elastic.slope};
   }
 };
 
-/// Law of a cell at its displacement gradient H.
-using FiniteLawAt = std::function<FiniteLaw(Index cell, const Tensor& H)>;
+/// Law of a cell at its displacement gradient H, or at that of one of its sides: number `own` of those that have a
+/// gradient of their own (FiniteStates::own), -1: the cell's.
+using FiniteLawAt = std::function<FiniteLaw(Index cell, Index own, const Tensor& H)>;
 
 }  // namespace pfdm

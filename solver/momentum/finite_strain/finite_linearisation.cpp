@@ -21,8 +21,8 @@ Tensor turn_of(double m, const Vector& c, const Vector& y) {
 
 }  // namespace
 
-void FiniteTractions::set(const FiniteLawAt& law, const CellField<double>& g, const std::vector<Vector>& u, double part,
-                          Sweep& sweep) {
+void FiniteTractions::set(const FiniteLawAt& law, const std::vector<GapStress>& gaps, const CellField<double>& g,
+                          const std::vector<Vector>& u, double part, Sweep& sweep) {
   FiniteSweep& s = of(sweep);
   cells_.weigh(g, part);
   cells_.weigh_third_order(g);
@@ -31,6 +31,8 @@ void FiniteTractions::set(const FiniteLawAt& law, const CellField<double>& g, co
   reconstruct(u, s);
   states_.extrapolate(cells_.layers(), eigenstrain_.all());
   states_.linearise(law, s.gradients, s.on_sides);
+  memory_.set(gaps);
+  memory_.turn(states_);
   pressure_.linearise(s);
   set_face_tensors();
   find_changes(s);
@@ -62,8 +64,22 @@ void FiniteTractions::find_initial_sector_stress(const FiniteSweep& s) {
 
 Vector FiniteTractions::true_traction(Index cell, const Vector& n, const Vector& d, std::size_t turn,
                                       const FiniteSweep& s) const {
-  const Vector t = states_.stress_at(cell, turn) * n;
+  const Vector t = states_.stress_at(cell, turn) * n + remembered(cell, n, turn);
   return pressure_.any() ? (t + s.pressure.at(cell, d) * pressure_.area(skeleton_.force_at(turn))).eval() : t;
+}
+
+Vector FiniteTractions::remembered(Index cell, const Vector& n, std::size_t turn) const {
+  if (!memory_.any()) return Vector::Zero();
+  const Vector c = states_.cofactor_at(cell, turn) * n, &x = memory_.left(turn);
+  return x + states_.memory_push(cell, turn).stiffness * c.dot(x) * c;
+}
+
+void FiniteTractions::remember(Index cell, const Vector& c, std::size_t turn, FaceTurn& by) const {
+  if (!memory_.any()) return;
+  const Push m = states_.memory_push(cell, turn);
+  const Vector& x = memory_.left(turn);
+  by.turn += turn_of(m.stiffness, c, x);
+  by.swell += m.slope * c.dot(x) * c;
 }
 
 // m and dm/dJ are those of the face.
@@ -73,8 +89,9 @@ FiniteTractions::FaceTurn FiniteTractions::face_turn(Index cell, const Vector& n
   const Vector c = states_.cofactor_at(cell, turn) * n;
   FaceTurn by{.turn = turn_of(m.stiffness, c, y),
               .swell = m.slope * c.dot(y) * c,
-              .initial = (states_.stress_at(cell, turn) - at.stress) * n,
+              .initial = (states_.stress_at(cell, turn) - at.stress) * n + remembered(cell, n, turn),
               .pressure = s.pressure.at(cell, d)};
+  remember(cell, c, turn, by);
   by.initial -= by.turn * (at.cofactor * n) + by.swell * at.volume;
   if (pressure_.any()) by.initial -= by.pressure * s.area_changes[skeleton_.force_at(turn)];
   return by;

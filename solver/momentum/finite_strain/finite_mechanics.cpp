@@ -2,14 +2,17 @@
 // mean gradient and half the work of what tractions and face displacements differ by from those; with a pressure this
 // is without the pressure's work.
 
-#include "solver/momentum/faces/cell_sums.h"
 #include "solver/momentum/finite_strain/finite_tractions.h"
 #include "solver/momentum/finite_strain/polar_parts.h"
 #include "solver/parallel.h"
 
+#include <cmath>
 #include <numeric>
 
 namespace pfdm {
+
+using momentum_faces::Link;
+
 namespace {
 
 Tensor skew_part(const Tensor& A) { return 0.5 * (A - A.transpose()); }
@@ -86,6 +89,45 @@ void FiniteTractions::add_work_of_moments(CellMechanics& result) const {
   add_moments(skeleton_.mesh, all, stress, result);
 }
 
+// Displacement of a face beyond that of the cell and its gradient [m]. Across layers that bend the jump counts as its
+// weights say.
+Vector FiniteTractions::gap(Index cell, const Vector& d, std::size_t turn, const Vector& move,
+                            const FaceMoves& moves) const {
+  const FiniteSweep& s = of(moves.sweep);
+  const Vector whole = move - rise(cell, d, turn, s);
+  const std::size_t i = turn / 2;
+  if (skeleton_.is_side(turn) || !weights_.turns(i)) return whole;
+  const Link& link = skeleton_.links[i];
+  const Vector jump =
+      moves.u[link.N] + s.gradients[link.N] * link.d_N - moves.u[link.P] - s.gradients[link.P] * link.d_P;
+  const Vector beyond = jump - weights_.weigh(i, jump), on_P = link_tensors_[i].weight.transpose() * beyond;
+  return whole - on_P + (memory_.outwards(turn) < 0.0 ? beyond : Vector::Zero());
+}
+
+// Gaps of viscoelastic cells, as strains that do not turn with the cell, and the gradients that laws have met.
+void FiniteTractions::add_gaps(const FaceMoves& moves, CellMechanics& result) const {
+  if (!memory_.any()) return;
+  const Mesh& mesh = skeleton_.mesh;
+  const FiniteSweep& s = of(moves.sweep);
+  result.gaps.resize(mesh.cell_faces.size());
+  result.gradients_of_laws.assign(s.gradients.begin(), s.gradients.end());
+  for (std::size_t k = 0; k < states_.n_own(); ++k)
+    result.gradients_of_laws.push_back(states_.as_law_sees(k, s.on_sides[k]));
+  parallel_for(mesh.n_cells(), [&](Index c) {
+    if (!(states_.law(c).memory.share > 0.0)) return;
+    memory_.visit_sides(c, [&](std::size_t at, Index f, std::size_t turn) {
+      const Vector d = mesh.face_centre[f] - mesh.cell_centre[c];
+      const double h = std::abs(d.dot(mesh.face_area[f].normalized()));
+      const Vector move = moves.seen_from(c, f) - moves.u[c];
+      const Vector back = memory_.rotation(c).transpose() * gap(c, d, turn, move, moves);
+      result.gaps[at] = {.strain = states_.stiffer_at(turn) / h * back,
+                         .volume = mesh.face_area[f].norm() * h,
+                         .by_shear = 1.0 + states_.memory_push(c, turn).stiffness,
+                         .by_bulk = 0.0};
+    });
+  });
+}
+
 CellMechanics FiniteTractions::mechanics(const std::vector<Vector>& u, bool,
                                          const CellField<IsotropicElasticity>& part) const {
   const auto lease = sweep();
@@ -121,6 +163,7 @@ CellMechanics FiniteTractions::mechanics(const std::vector<Vector>& u, bool,
   });
   add_work_of_moments(result);
   find_within_layers(s.gradients, result);
+  add_gaps(moves, result);
   result.face_displacement = std::move(u_face);
   return result;
 }

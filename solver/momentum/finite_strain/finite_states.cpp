@@ -49,13 +49,24 @@ void FiniteStates::extrapolate(const LayerGradients& layers, const CellField<Man
   });
 }
 
+std::vector<Index> FiniteStates::cells_of_own() const {
+  std::vector<Index> cells;
+  for (const std::size_t side : own_sides_) cells.push_back(skeleton_.sides[side].cell);
+  return cells;
+}
+
+Tensor FiniteStates::as_law_sees(std::size_t own, const Tensor& H) const {
+  if (relative_.empty()) return H;
+  return (Tensor::Identity() + H) * relative_[own] - Tensor::Identity();
+}
+
 // With K as `relative_`, P(F) = P_cell(F K) K^T / det K.
 FiniteLaw FiniteStates::law_on_side(const FiniteLawAt& law, std::size_t own, const Tensor& H) const {
   const Index cell = skeleton_.sides[own_sides_[own]].cell;
-  if (relative_.empty()) return law(cell, H);
+  FiniteLaw at = law(cell, static_cast<Index>(own), as_law_sees(own, H));
+  if (relative_.empty()) return at;
   const Tensor& K = relative_[own];
   const double volume = K.determinant();
-  FiniteLaw at = law(cell, (Tensor::Identity() + H) * K - Tensor::Identity());
   GradientTangent times_K;
   for (Index i = 0; i < 9; ++i) times_K.col(i) = to_components(from_components(Components::Unit(i)) * K);
   at.stress = at.stress * K.transpose() / volume;
@@ -78,7 +89,7 @@ FiniteStates::Push FiniteStates::capped(double share, const FiniteLaw& law, cons
 void FiniteStates::linearise(const FiniteLawAt& law, const CellField<Tensor>& gradients,
                              const std::vector<Tensor>& on_sides) {
   parallel_for(laws_.size(), [&](Index c) {
-    laws_[c] = law(c, gradients[c]);
+    laws_[c] = law(c, -1, gradients[c]);
     F_[c] = Tensor::Identity() + gradients[c];
     cofactor_[c] = cofactor(F_[c]);
     push_[c] = push_of(laws_[c], F_[c].determinant());
@@ -110,6 +121,14 @@ FiniteStates::Push FiniteStates::side_push(std::size_t i) const {
   const SideState& at = side_states_[k];
   const Push single = capped(jump_share_[side.cell], at.law, at.push);
   return {stiffer(i) * single.stiffness, stiffer(i) * single.slope};
+}
+
+FiniteStates::Push FiniteStates::memory_push(Index cell, std::size_t turn) const {
+  const Index k = own_at(turn);
+  const FiniteLaw& law = law_at(cell, turn);
+  const double J = (k < 0 ? F_[cell] : side_states_[k].F).determinant(), share = jump_share_[cell];
+  const double m = law.memory.lambda + law.swelling * swelling(J);
+  return {share * (m + 1.0) - 1.0, share * law.swelling * swelling_slope(J)};
 }
 
 Tensor FiniteStates::acoustic(Index cell, const Vector& n) const {

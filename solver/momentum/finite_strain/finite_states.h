@@ -54,7 +54,16 @@ class FiniteStates {
   std::size_t side_of_own(std::size_t k) const { return own_sides_[k]; }
   /// Number of a side among them; -1: it is none.
   Index own(std::size_t side) const { return own_of_side_.empty() ? -1 : own_of_side_[side]; }
+  /// Cells of the sides with a gradient of their own, in their order.
+  std::vector<Index> cells_of_own() const;
+  /// The gradient H of one of them as the law of its cell sees it, whose eigenstrain is the cell's.
+  Tensor as_law_sees(std::size_t own, const Tensor& H) const;
   const FiniteLaw& law(Index cell) const { return laws_[cell]; }
+  /// As side number `turn` sees it.
+  const FiniteLaw& law_at(Index cell, std::size_t turn) const {
+    const Index k = own_at(turn);
+    return k < 0 ? laws_[cell] : side_states_[k].law;
+  }
   const CellField<Tensor>& deformation() const { return F_; }
   const CellField<Tensor>& cofactors() const { return cofactor_; }
   const Tensor& deformation_on(Index own) const { return side_states_[own].F; }
@@ -76,6 +85,10 @@ class FiniteStates {
   const Push& push(Index cell) const { return push_[cell]; }
   Push capped_push(Index cell) const { return capped(jump_share_[cell], laws_[cell], push_[cell]); }
   Push side_push(std::size_t side) const;
+  /// m of what is left of earlier gaps, over mu, and dm/dJ; capped in polyhedra (finite_memory.h).
+  Push memory_push(Index cell, std::size_t turn) const;
+  /// Factor of a on a side: more than 1 on bonded ones.
+  double stiffer_at(std::size_t turn) const { return skeleton_.is_side(turn) ? stiffer(side_at(turn)) : 1.0; }
   /// a h [Pa].
   Tensor acoustic(Index cell, const Vector& n) const;
   Tensor capped_acoustic(Index cell, const Vector& n) const;
@@ -93,7 +106,7 @@ class FiniteStates {
   /// Whether a cell has lost all but this share of its stiffness.
   bool is_softer(Index cell, double share) const {
     const Unknowns& unknowns = skeleton_.unknowns;
-    return laws_[cell].face.mu < share * laws_[cell].free_share * unknowns.sound[unknowns.zone[cell]].mu;
+    return laws_[cell].face.mu < share * laws_[cell].sound_share * unknowns.sound[unknowns.zone[cell]].mu;
   }
   /// J over that of the free deformation.
   double elastic_volume(Index cell) const { return F_[cell].determinant() / (1.0 + laws_[cell].free_change); }

@@ -29,6 +29,7 @@ FiniteTractions::FiniteTractions(const FaceSkeleton& skeleton, CellReconstructio
       states_(skeleton, cells.layers()),
       pressure_(skeleton, cells.pressure(), states_),
       weights_(cells.layers(), skeleton.links.size()),
+      memory_(skeleton),
       initial_sector_(skeleton.sector_area.size(), 0.0),
       face_turns_(skeleton.n_turns()),
       link_tensors_(skeleton.links.size()),

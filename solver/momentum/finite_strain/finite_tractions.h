@@ -21,6 +21,8 @@
 // Where few layers of hexahedra bend, H is that along lines of cells, in plane meshes too; surfaces have gradients of
 // their own, and the jump y_P + y_N of t has weights (layer_gradients.h, turned_weights.h).
 //
+// Viscoelastic cells have an initial traction of earlier gaps y on their faces besides (finite_memory.h).
+//
 //   symbol              member, function
 //   a, b                side_tensors_; LinkTensors::{weight, c, softness} of links
 //   m, dm/dJ            FiniteStates::Push
@@ -28,7 +30,9 @@
 
 #include "solver/momentum/body/cell_eigenstrain.h"
 #include "solver/momentum/faces/cell_reconstruction.h"
+#include "solver/momentum/faces/cell_sums.h"
 #include "solver/momentum/faces/face_tractions.h"
+#include "solver/momentum/finite_strain/finite_memory.h"
 #include "solver/momentum/finite_strain/finite_pressure.h"
 #include "solver/momentum/finite_strain/finite_states.h"
 #include "solver/momentum/finite_strain/turned_weights.h"
@@ -47,10 +51,12 @@ class FiniteTractions final : public FaceTractions {
   FiniteTractions(const FaceSkeleton& skeleton, CellReconstruction& cells, const CellEigenstrain& eigenstrain);
 
   /// Linearises about the displacements u, whose gradients `sweep` then has. g and `part` as of
-  /// IsotropicTractions::set().
-  void set(const FiniteLawAt& law, const CellField<double>& g, const std::vector<Vector>& u, double part, Sweep& sweep);
+  /// IsotropicTractions::set(); gaps: what is left of earlier ones (FiniteMemory::set).
+  void set(const FiniteLawAt& law, const std::vector<GapStress>& gaps, const CellField<double>& g,
+           const std::vector<Vector>& u, double part, Sweep& sweep);
   /// F by least squares and what follows from it, where it is linearised.
   const FiniteStates& states() const { return states_; }
+  bool remembers() const { return memory_.any(); }  ///< some cell is viscoelastic
 
   void find_linear(const std::vector<Vector>& u, Sweep& sweep) const override;
   bool add_constant(Sweep& sweep) const override;
@@ -121,17 +127,23 @@ class FiniteTractions final : public FaceTractions {
   Vector true_traction(Index cell, const Vector& n, const Vector& d, std::size_t turn, const FiniteSweep& s) const;
   void find_initial_sector_stress(const FiniteSweep& s);
   void linearise_volumes(const std::vector<Vector>& u, FiniteSweep& s);
+  // Change of what is left of earlier gaps, and its value.
+  void remember(Index cell, const Vector& c, std::size_t turn, FaceTurn& by) const;
+  Vector remembered(Index cell, const Vector& n, std::size_t turn) const;
   // finite_mechanics.cpp
   // What of the gradient's variation along a line of a cell is elastic.
   Tensor elastic_spread(Index cell, Index line, const CellField<Tensor>& gradients) const;
   void find_within_layers(const CellField<Tensor>& gradients, CellMechanics& result) const;
   void add_work_of_moments(CellMechanics& result) const;
+  void add_gaps(const FaceMoves& moves, CellMechanics& result) const;
+  Vector gap(Index cell, const Vector& d, std::size_t turn, const Vector& move, const FaceMoves& moves) const;
 
   CellReconstruction& cells_;
   const CellEigenstrain& eigenstrain_;
   FiniteStates states_;
   FinitePressure pressure_;
   TurnedWeights weights_;
+  FiniteMemory memory_;
   CellField<double> initial_sector_;  // constant part of the stress across the sector [Pa]
   std::vector<FaceTurn> face_turns_;  // by turn
   std::vector<JumpTurn> jump_turns_;  // by link; empty where the jump's stiffness is that of the tractions

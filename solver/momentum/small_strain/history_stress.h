@@ -4,17 +4,11 @@
 #include "mesh/fields.h"
 #include "physics/elasticity/elasticity.h"
 #include "physics/elasticity/linear_stress.h"
+#include "solver/momentum/body/cell_mechanics.h"
 
 #include <vector>
 
 namespace pfdm {
-
-/// Stress that a relaxing material has on a face where the strain there does not differ from the cell's. It is shear
-/// moduli times the remainder of earlier gaps (CellMechanics::gaps), and bulk moduli times that along the normal.
-struct GapStress {
-  Vector shear = Vector::Zero();  ///< [Pa]
-  double bulk = 0.0;              ///< [Pa]
-};
 
 /// Remainders of earlier volume changes of a relaxing cell that has a pressure, times shear moduli: of the change by
 /// the cell's gradient, and of that by the flux through its faces [Pa].

@@ -56,10 +56,10 @@ void MomentumSolver::set_law(StrainLaw law, const CellField<double>& g, const st
   stale_.renew(operator_.set_law(std::move(law), g, u, afresh, afresh ? 0.0 : bearable_lag));
 }
 
-void MomentumSolver::set_finite(const FiniteLawAt& law, const CellField<double>& g, const std::vector<Vector>& u,
-                                double t) {
+void MomentumSolver::set_finite(const FiniteLawAt& law, const std::vector<GapStress>& gaps, const CellField<double>& g,
+                                const std::vector<Vector>& u, double t) {
   const double lag = stale_.begin(true) ? 0.0 : bearable_lag;
-  const CellField<double> measure = operator_.set_finite(law, g, u, t, lag);
+  const CellField<double> measure = operator_.set_finite(law, gaps, g, u, t, lag);
   stale_.renew(measure, *operator_.finite());
 }
 
@@ -109,7 +109,8 @@ void MomentumSolver::precondition(const std::vector<Vector>& r, std::vector<Vect
   operator_.keep_in_plane(z);
 }
 
-// The norm that residuals are measured against: that of the prescribed values and of the eigenstrains alone. (Forces
+// The norm that residuals are measured against: that of the prescribed values, of the eigenstrains and of what a
+// viscoelastic body has not relaxed. (Forces
 // over the root of their stiffness are roots of energies.)
 double MomentumSolver::reference_norm(double t, const std::vector<Vector>& load) {
   if (reference_load_ == t) return reference_;
@@ -125,6 +126,8 @@ double MomentumSolver::reference_norm(double t, const std::vector<Vector>& load)
   reference_load_ = t;
   reference_ = scaled_norm(image, scale_);
   if (unknowns_.loads.eigenstrain) reference_ = std::hypot(reference_, std::sqrt(operator_.energy_if_held()));
+  if (const double remembered = operator_.energy_remembered(); remembered > 0.0)
+    reference_ = std::hypot(reference_, std::sqrt(remembered));
   if (!held_forces_.empty()) {
     std::vector<Vector> held(load.size(), Vector::Zero());
     operator_.pull_split_faces(held_forces_, held);

@@ -45,7 +45,10 @@ class MomentumSolver {
   /// Finite strain: the balance is linearised about the displacements u and the load parameter t
   /// (MomentumOperator::set_finite). The next solve rebuilds the preconditioner if the stiffness of some cell's faces
   /// has changed by more than a factor of 2, or has turned.
-  void set_finite(const FiniteLawAt& law, const CellField<double>& g, const std::vector<Vector>& u, double t);
+  void set_finite(const FiniteLawAt& law, const std::vector<GapStress>& gaps, const CellField<double>& g,
+                  const std::vector<Vector>& u, double t);
+  /// MomentumOperator::own_sides_at_finite_strain().
+  std::vector<Index> own_sides_at_finite_strain() { return operator_.own_sides_at_finite_strain(); }
   /// The laws of the split faces about their separations. The preconditioner is rebuilt when a face together with the
   /// cells beside it, whose stiffness is `bond` [Pa/m], has changed its stiffness by more than a factor of 2.
   void set_springs(std::vector<FaceSpring> springs, const std::vector<double>& bond);

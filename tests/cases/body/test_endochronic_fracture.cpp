@@ -36,13 +36,16 @@ TEST(EndochronicFracture, BarBreaksAndItsWorkIsAccountedFor) {
   const auto& heat = curve.column("plastic_dissipation_J");
   EXPECT_LT(std::ranges::min(force), 0.0);
   EXPECT_LT(force.back(), 0.05 * std::ranges::max(force));
-  EXPECT_GT(heat.back(), 0.2 * curve.column("fracture_energy_J").back());
   EXPECT_TRUE(std::ranges::is_sorted(heat));
   const auto broken = std::ranges::find_if(curve.column("max_damage"), [](double d) { return d > 0.9; });
   const auto last_sound = static_cast<std::size_t>(broken - curve.column("max_damage").begin()) - 1;
   const auto at = [&](const char* name) { return curve.column(name)[last_sound]; };
   EXPECT_NEAR(at("elastic_energy_J") + at("fracture_energy_J") + at("plastic_dissipation_J"), at("external_work_J"),
-              0.02 * at("external_work_J"));
+              0.005 * at("external_work_J"));
+  EXPECT_GT(at("plastic_dissipation_J"), 0.03 * at("external_work_J"));
+  // At the break energy is released, and none appears.
+  EXPECT_LT(curve.column("elastic_energy_J").back() + curve.column("fracture_energy_J").back() + heat.back(),
+            curve.column("external_work_J").back());
   EXPECT_THAT(content_of(directory.results() / "fields" / "step_000005.vtu"), HasSubstr("plastic_strain"));
 }
 

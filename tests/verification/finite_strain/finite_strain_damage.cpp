@@ -110,7 +110,7 @@ TEST(FiniteStrainDamage, OneEnergyDrivesTheDamageAndHasTheStress) {
           of_g = std::max(of_g, std::abs(driving(g).value - std::max(slope, 0.0)) / std::abs(slope));
           const double curvature = (driving(g + e).value - driving(g - e).value) / (2.0 * e);
           of_curvature = std::max(of_curvature, std::abs(driving(g).slope - curvature) * g / std::abs(slope));
-          const FiniteLaw law = cells.law(0, H, g, 0.0);
+          const FiniteLaw law = cells.law({0}, H, g, 0.0);
           Tensor P = law.stress;
           if (law.pressure != nullptr) {
             const double left = J > 1.0 ? law.open : law.closed;
@@ -146,8 +146,8 @@ TEST(FiniteStrainDamage, HybridIsDrivenByAllButTheEnergyOfCompression) {
     const FiniteEnergies at = by_tension.energies(0, mechanics, g);
     EXPECT_NEAR(by_tension.driving_energy(0, at, g).value, W - W_c, 1e-12 * W);
     EXPECT_NEAR(by_tension.stored_energy(0, at, g) / mesh.cell_volume[0], g * W, 1e-12 * W);
-    EXPECT_EQ(by_tension.law(0, mechanics.gradient[0], g, 0.0).stress,
-              by_all.law(0, mechanics.gradient[0], g, 0.0).stress);
+    EXPECT_EQ(by_tension.law({0}, mechanics.gradient[0], g, 0.0).stress,
+              by_all.law({0}, mechanics.gradient[0], g, 0.0).stress);
   }
 }
 

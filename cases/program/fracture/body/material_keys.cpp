@@ -162,7 +162,8 @@ const KeyTable& region_keys() {
 const KeyTable& material_keys() {
   using namespace keys;
   constexpr std::string_view j2 = "j2_plasticity", powers = "ogden lopez_pamies",
-                             volumetric = "neo_hookean mooney_rivlin ogden lopez_pamies";
+                             volumetric = "neo_hookean mooney_rivlin ogden lopez_pamies",
+                             viscous = "prony neo_hookean mooney_rivlin ogden lopez_pamies";
   static const KeyTable table{
       .name = "materials.NAME",
       .sentence = "A material: elasticity, fracture, the law of the undamaged material.",
@@ -179,10 +180,10 @@ const KeyTable& material_keys() {
              "Slope of the yield stress by the equivalent plastic strain.", j2},
             {"kinematic_hardening", quantity(dimension::stress, range::not_negative), "0",
              "Slope of the back stress by the equivalent plastic strain.", j2}},
-           prony_branch_keys("prony"),
+           prony_branch_keys(viscous, "prony"),
            {{"driven_by", choice("driving energy", {"equilibrium", "stored"}), "\"equilibrium\"",
              "Energy that drives damage: of the relaxed elasticity, or all that is stored, also in the branches.",
-             "prony"},
+             viscous},
             {"volumetric", choice("volumetric energy", {"quadratic", "logarithmic"}), "\"quadratic\"",
              "Energy of the volume change of a hyperelastic material.", volumetric},
             {"second_invariant", number(range::fraction), "",

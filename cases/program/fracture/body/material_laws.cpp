@@ -38,19 +38,25 @@ constexpr MaterialLaw j2_plasticity{
         },
 };
 
+PronyDrive read_drive(const ConfigTable& material) {
+  return material.choice("driven_by", "equilibrium") == "stored" ? PronyDrive::stored : PronyDrive::equilibrium;
+}
+
 constexpr MaterialLaw prony{
     .name = "prony",
     .description = "linear viscoelasticity, a generalised Maxwell body; shear_branches, bulk_branches, driven_by",
     .read =
         [](const ConfigTable& material) {
           PronyLaw law = read_prony_series(material);
-          if (material.choice("driven_by", "equilibrium") == "stored") law.drive = PronyDrive::stored;
+          law.drive = read_drive(material);
           return make_prony(law);
         },
 };
 
 HyperelasticParameters read_volumetric(const ConfigTable& material) {
-  HyperelasticParameters p{.elasticity = read_elasticity(material)};
+  HyperelasticParameters p{.elasticity = read_elasticity(material),
+                           .branches = read_shear_branches(material),
+                           .drive = read_drive(material)};
   if (material.choice("volumetric", "quadratic") == "logarithmic") p.volumetric = VolumetricForm::logarithmic;
   return p;
 }
@@ -69,13 +75,13 @@ std::shared_ptr<const Material> make(const ConfigTable& material, std::string_vi
 
 constexpr MaterialLaw neo_hookean{
     .name = "neo_hookean",
-    .description = "finite strain: mu/2 (I1 - 3) - mu ln J + U(J); volumetric",
+    .description = "finite strain: mu/2 (I1 - 3) - mu ln J + U(J); volumetric, shear_branches, driven_by",
     .read = [](const ConfigTable& m) { return make(m, "neo_hookean", read_volumetric(m)); },
 };
 
 constexpr MaterialLaw mooney_rivlin{
     .name = "mooney_rivlin",
-    .description = "finite strain: terms in I1 and I2; second_invariant, volumetric",
+    .description = "finite strain: terms in I1 and I2; second_invariant, volumetric, shear_branches, driven_by",
     .read =
         [](const ConfigTable& m) {
           HyperelasticParameters p = read_volumetric(m);
@@ -86,13 +92,14 @@ constexpr MaterialLaw mooney_rivlin{
 
 constexpr MaterialLaw ogden{
     .name = "ogden",
-    .description = "finite strain: powers of the principal stretches (Ogden 1972); exponents, shares, volumetric",
+    .description =
+        "finite strain: powers of the principal stretches (Ogden 1972); exponents, shares, volumetric, shear_branches",
     .read = [](const ConfigTable& m) { return make(m, "ogden", read_powers(m)); },
 };
 
 constexpr MaterialLaw lopez_pamies{
     .name = "lopez_pamies",
-    .description = "finite strain: powers of I1 (Lopez-Pamies 2010); exponents, shares, volumetric",
+    .description = "finite strain: powers of I1 (Lopez-Pamies 2010); exponents, shares, volumetric, shear_branches",
     .read = [](const ConfigTable& m) { return make(m, "lopez_pamies", read_powers(m)); },
 };
 

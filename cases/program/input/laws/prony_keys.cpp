@@ -17,11 +17,11 @@ const KeyTable& branch_keys() {
 
 }  // namespace
 
-std::vector<Key> prony_branch_keys(std::string_view only) {
+std::vector<Key> prony_branch_keys(std::string_view shear_only, std::string_view bulk_only) {
   return {{"shear_branches", keys::tables(branch_keys), "none",
-           "Prony series of the shear modulus beside the relaxed one of young_modulus and poisson_ratio.", only},
+           "Prony series of the shear modulus beside the relaxed one of young_modulus and poisson_ratio.", shear_only},
           {"bulk_branches", keys::tables(branch_keys), "none",
-           "Prony series of the bulk modulus beside the relaxed one.", only}};
+           "Prony series of the bulk modulus beside the relaxed one.", bulk_only}};
 }
 
 }  // namespace pfdm

@@ -8,7 +8,7 @@
 
 namespace pfdm {
 
-/// "shear_branches", "bulk_branches"; `only`: as of a row.
-std::vector<Key> prony_branch_keys(std::string_view only = {});
+/// "shear_branches", "bulk_branches"; `only` of each: as of a row.
+std::vector<Key> prony_branch_keys(std::string_view shear_only = {}, std::string_view bulk_only = {});
 
 }  // namespace pfdm

@@ -33,9 +33,13 @@ std::string branches_toml(std::string_view key, const std::vector<PronyBranch>& 
 
 }  // namespace
 
+std::vector<PronyBranch> read_shear_branches(const ConfigTable& material) {
+  return read_branches(material, "shear_branches");
+}
+
 PronyLaw read_prony_series(const ConfigTable& material) {
   return {.relaxed = from_young_poisson(material.quantity("young_modulus"), material.number("poisson_ratio")),
-          .shear = read_branches(material, "shear_branches"),
+          .shear = read_shear_branches(material),
           .bulk = read_branches(material, "bulk_branches")};
 }
 

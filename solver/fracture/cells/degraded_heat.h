@@ -1,0 +1,30 @@
+#pragma once
+// Heat of a cell while damage degrades it: integrals over a step of which only both ends are known. Within a jump g
+// falls by orders and what the undamaged material would store and dissipate rises by orders, as the crack opens: the
+// trapezoidal rule gave half of that as heat. Where changes are small both are the same to second order.
+
+#include <cmath>
+
+namespace pfdm {
+
+/// Logarithmic mean of two positive numbers: (b - a)/ln(b/a).
+inline double logarithmic_mean(double a, double b) {
+  const double x = std::log(b / a);
+  return std::abs(x) < 1e-4 ? std::sqrt(a * b) : (b - a) / x;
+}
+
+/// - int W dg: what damage frees of an energy W that does not drive it, g and W being exponentials of the same parameter
+/// from one state to the other.
+inline double freed_energy(double g_from, double W_from, double g_to, double W_to) {
+  if (g_from == g_to) return 0.0;
+  if (!(W_from > 0.0 && W_to > 0.0)) return 0.5 * (g_from - g_to) * (W_from + W_to);
+  if (!(g_to > 0.0)) return g_from * W_from;
+  return std::log(g_from / g_to) * logarithmic_mean(g_from * W_from, g_to * W_to);
+}
+
+/// int g dw of what the undamaged material dissipates, by the geometric mean of g.
+inline double degraded_dissipation(double g_from, double g_to, double dissipated) {
+  return std::sqrt(g_from * g_to) * dissipated;
+}
+
+}  // namespace pfdm

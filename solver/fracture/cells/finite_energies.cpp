@@ -1,0 +1,152 @@
+// Energies and stresses of the cells at finite strain (finite_cells.h).
+
+#include "physics/materials/biot_stress.h"
+#include "solver/fracture/cells/degraded_heat.h"
+#include "solver/fracture/cells/finite_cells.h"
+
+#include <algorithm>
+
+namespace pfdm {
+
+// Half the work of what the tractions' stress is beyond that of the mean gradient, of cells with a pressure, and of all
+// cells of a body with eigenstrains, whose stress may vary much within thin cells around what does not fit [J/m^3]:
+// 1/2 (P - P(H)):(F_e - R) F*, R being the rotation in F_e. In bonded layers that are a few cells thick it is 1 to 5 %
+// of the energy. Of undamageable regions: among the cells along a crack it would drive damage, and cracks grew at
+// forces that were 6 % lower.
+double FiniteCells::beside_mean(Index cell, const CellMechanics& mechanics, const Parts& at, double g) const {
+  const bool is_pressed = mechanics.moderate_stress.size() > 0 && has_pressure(cell);
+  if (!is_pressed && mechanics.eigenstrain.size() == 0) return 0.0;
+  if (model_.in_cell(mesh_, cell).damageable) return 0.0;
+  Parts moderate = at;
+  moderate.pressure = {};
+  const Tensor& P = is_pressed ? mechanics.moderate_stress[cell] : mechanics.stress[cell];
+  const FreeDeformation free = free_deformation(cell, mechanics);
+  const Tensor elastic_stress = damaged(cell, moderate, finite_shares(*material_[cell], g), g).stress;
+  Tensor excess = P - free.stress(elastic_stress);
+  excess -= plane_normal_.dot(excess * plane_normal_) * plane_normal_ * plane_normal_.transpose();  // no faces there
+  const Tensor F_e = Tensor::Identity() + elastic(mechanics.gradient[cell], free);
+  return 0.5 * contract(excess, stretch_part(F_e) * free.stretch());
+}
+
+double FiniteCells::dissipation(Index cell, const CellHistories& from, double g_from, const CellHistories& to,
+                                double g_to) const {
+  if (!histories_.has(cell)) return 0.0;
+  const double left_from = finite_shares(*material_[cell], g_from).moderate.value,
+               left_to = finite_shares(*material_[cell], g_to).moderate.value;
+  const MaterialEnergy before = histories_.energy(cell, from), after = histories_.energy(cell, to);
+  const double flow = degraded_dissipation(left_from, left_to, after.dissipated - before.dissipated);
+  return mesh_.cell_volume[cell] * (flow + freed_energy(left_from, before.idle, left_to, after.idle));
+}
+
+// The moments of tractions in cells without a pressure count in the account alone: the rotation of the whole body is in
+// them, which cannot drive the damage of a cell.
+FiniteEnergies FiniteCells::energies(Index cell, const CellMechanics& mechanics, double g,
+                                     const CellHistories& now) const {
+  const Parts at = parts(cell, mechanics, thinned_elastic(cell, mechanics, g));
+  const double V = mesh_.cell_volume[cell],
+               moments = mechanics.moment_work.size() > 0 ? mechanics.moment_work[cell] : 0.0;
+  const bool drive = has_pressure(cell) || !model_.in_cell(mesh_, cell).damageable;
+  FiniteEnergies energies = mean_energies(cell, mechanics, at);
+  energies.faces = (mechanics.energy[cell] + (drive ? moments : 0.0)) / V + beside_mean(cell, mechanics, at, g);
+  energies.of = g;
+  energies.moments = drive ? 0.0 : moments / V;
+  if (!histories_.has(cell)) return energies;
+  energies.locked = histories_.energy(cell, now).locked;
+  if (energies.branches_drive) return energies;
+  // By the moduli: faces meet the branches, and the volumetric energy is lost by the shear modulus with all of them. A
+  // sheet that is torn fast is then driven as the elastic one is, at the same stretches.
+  const double mu = material_[cell]->elasticity().mu;
+  energies.faces_drive = mu / (mu + histories_.modulus(cell));
+  energies.pressure_drive = mu / material_[cell]->instantaneous_shear_modulus();
+  return energies;
+}
+
+FiniteEnergies FiniteCells::mean_energies(Index cell, const CellMechanics& mechanics, const Parts& at) const {
+  const double volume = free_deformation(cell, mechanics).volume();
+  return {.moderate = volume * at.moderate.energy,
+          .network = volume * at.network.energy,
+          .pressure = volume * at.pressure.energy,
+          .branches = volume * at.branches.energy,
+          .branches_drive = material_[cell]->drive() == PronyDrive::stored,
+          .compression = volume * at.compression.energy,
+          .is_compressed = at.is_compressed};
+}
+
+double FiniteCells::stored_energy(Index cell, const FiniteEnergies& at, double g) const {
+  const FiniteShares by = finite_shares(*material_[cell], g);
+  const bool whole = keeps(cell, at);
+  const double kept = whole ? (1.0 - g) * at.compression : 0.0;
+  const double density = by.moderate.value * (at.moderate + at.branches + at.locked) + by.network.value * at.network +
+                         kept + (whole ? 1.0 : by.pressure.value) * at.pressure + at.faces + at.moments;
+  return mesh_.cell_volume[cell] * density;
+}
+
+// W_c is taken off where compression does not drive, as it is degraded: by 1 with a split that keeps it, else by the
+// share of W_m. The energy of the faces is taken as proportional to g where nothing is kept. In a cell that is driven
+// less by compression it must not end at J = 1: its damage would go to and fro.
+DrivingAt FiniteCells::driving_energy(Index cell, const FiniteEnergies& at, double g) const {
+  const FiniteShares by = finite_shares(*material_[cell], g);
+  const bool whole = keeps(cell, at);
+  const FiniteShare off = whole ? FiniteShare{.value = g, .slope = 1.0} : by.moderate;
+  const double pressure = at.is_compressed ? 0.0 : at.pressure_drive * at.pressure,
+               faces = whole ? 0.0 : at.faces_drive * at.faces / at.of;
+  const double moderate = at.moderate + (at.branches_drive ? at.branches : 0.0);
+  const double value = by.moderate.slope * moderate + by.network.slope * at.network - off.slope * at.compression +
+                       by.pressure.slope * pressure + faces;
+  if (value <= 0.0) return {};
+  return {.value = value,
+          .slope = by.moderate.curvature * moderate + by.network.curvature * at.network -
+                   off.curvature * at.compression + by.pressure.curvature * pressure};
+}
+
+Tensor FiniteCells::undamaged_biot_stress(Index cell, const CellMechanics& mechanics, double g) const {
+  const Tensor H = thinned_elastic(cell, mechanics, g);
+  const Parts at = parts(cell, mechanics, H);
+  const FiniteShares by = finite_shares(*material_[cell], g);
+  const Tensor whole = (by.moderate.value * at.moderate.stress + by.network.value * at.network.stress) / g;
+  return biot_stress(H, whole + (keeps(cell, at) ? 1.0 : by.pressure.value / g) * at.pressure.stress);
+}
+
+// The deformation gradient for the Cauchy stress. A broken sheet, a network, has next to no thickness: it counts as
+// thick as a sound one at the same stretch, and where it is turned inside out as thick as at rest.
+Tensor FiniteCells::true_deformation(Index cell, const Tensor& H, double g) const {
+  Tensor thin = Tensor::Identity() + thinned({cell}, H, g);
+  if (!is_plane_stress()) return thin;
+  const Tensor nn = across_ * across_.transpose();
+  const bool is_turned = volume_change(H - contract(nn, H) * nn) <= -1.0;
+  const double sound = is_turned ? 1.0 : 1.0 + contract(nn, thinned({cell}, H, 1.0));
+  return thin + std::max(sound - contract(nn, thin), 0.0) * nn;
+}
+
+// First Piola-Kirchhoff.
+Tensor FiniteCells::traction_stress(Index cell, const CellMechanics& mechanics, double g,
+                                    const Vector& plane_normal) const {
+  const Tensor& P = mechanics.stress[cell];
+  if (plane_normal.isZero()) return P;
+  const Tensor across = plane_normal * plane_normal.transpose();
+  const Parts at = parts(cell, mechanics, thinned_elastic(cell, mechanics, g));
+  const Tensor of_law =
+      free_deformation(cell, mechanics).stress(damaged(cell, at, finite_shares(*material_[cell], g), g).stress);
+  return P + across * (of_law - P) * across;
+}
+
+// The energy of the faces is not one of F*.
+Tensor FiniteCells::eigenstrain_moment(Index cell, const CellMechanics& mechanics, double g,
+                                       const Vector& plane_normal) const {
+  const FiniteEnergies mean =
+      mean_energies(cell, mechanics, parts(cell, mechanics, thinned_elastic(cell, mechanics, g)));
+  const Tensor P = traction_stress(cell, mechanics, g, plane_normal);
+  const double energy = stored_energy(cell, mean, g) / mesh_.cell_volume[cell];
+  const Tensor slope = free_deformation(cell, mechanics).energy_slope(energy, P, thinned(cell, mechanics, g));
+  return -mesh_.cell_volume[cell] * symmetric_part(slope);
+}
+
+Tensor FiniteCells::cauchy_stress(Index cell, const CellMechanics& mechanics, double g,
+                                  const Vector& plane_normal) const {
+  const Tensor P = traction_stress(cell, mechanics, g, plane_normal);
+  const FreeDeformation free = free_deformation(cell, mechanics);
+  const Tensor F = true_deformation(cell, elastic(mechanics.gradient[cell], free), g) * free.stretch();
+  return symmetric_part(P * F.transpose() / F.determinant());
+}
+
+}  // namespace pfdm

@@ -1,0 +1,80 @@
+#pragma once
+// Memory of viscoelastic cells at finite strain (physics/materials/viscous_branches.h). Places are the cells, and then
+// the sides that have a gradient of their own (FiniteStates::own): each has a history of its law, cells also one of the
+// gaps at their faces and of their volume by the flux through these (relaxing_gaps.h), in the rotated frame of the
+// cell.
+//
+// A law is a function of the deformation at the end of a step and of the history at its start. A step of no duration
+// holds a state.
+
+#include "physics/materials/hyperelastic.h"
+#include "solver/fracture/cells/relaxing_gaps.h"
+#include "solver/fracture/model/fracture_model.h"
+#include "solver/fracture/model/state.h"
+
+#include <map>
+#include <vector>
+
+namespace pfdm {
+
+/// A cell, or side number `own` of those with a gradient of their own.
+struct FinitePlace {
+  Index cell = 0, own = -1;
+};
+
+class FiniteHistories {
+ public:
+  /// Of cells of these materials, null at small strain.
+  FiniteHistories(const Mesh& mesh, const CellField<const HyperelasticMaterial*>& materials,
+                  const FractureModel& model);
+
+  bool any() const { return gaps_.any(); }
+  bool has(Index cell) const { return gaps_.has(cell); }
+  /// Names the cells of the sides that have a gradient of their own; before virgin_histories().
+  void set_own_sides(std::vector<Index> cells);
+  CellHistories virgin_histories() const;
+
+  /// Begins a step at these histories, which takes `duration` [s]; 0: holds them.
+  void start_from(const CellHistories& start, double duration);
+  /// What the place was at the start of the step; of a cell that has() one.
+  PointBefore before(FinitePlace at) const {
+    const Index place = number(at);
+    return {start_.gradient(place), duration_, law_numbers(place, start_)};
+  }
+  const ViscousBranches& branches(Index cell) const {
+    return is_plane_stress_ ? material_[cell]->branches() : material_[cell]->branches_of_cells();
+  }
+  /// Shear modulus of the branches that a small change of strain meets in the step [Pa].
+  double modulus(Index cell) const { return modulus_of_.at(material_[cell]); }
+  /// What the branches have left of earlier gaps, by Mesh::cell_faces, sum mu_i left_i; empty: no cell relaxes [Pa].
+  const std::vector<GapStress>& gaps() const { return left_.gaps; }
+  /// Sum of mu_i times what is left of earlier volume strains, by the flux through the faces [Pa].
+  double volume_left(Index cell) const { return left_.volumes[cell].by_flux; }
+
+  /// Takes a place to its elastic gradient H of now.
+  void advance(FinitePlace at, const Tensor& H, CellHistories& to) const;
+  /// Takes the gaps of a cell, and its volume change by the flux J - 1, to those of now.
+  void advance_gaps(Index cell, const std::vector<FaceGap>& gaps, double volume_change, CellHistories& to) const;
+  /// Energies of the branches and gaps of a cell, undamaged; `idle` or `driving` as the material says, whole.
+  MaterialEnergy energy(Index cell, const CellHistories& histories) const;
+
+ private:
+  Index number(FinitePlace at) const { return at.own < 0 ? at.cell : mesh_.n_cells() + at.own; }
+  Index cell_of(Index place) const { return place < mesh_.n_cells() ? place : cells_of_own_[place - mesh_.n_cells()]; }
+  std::size_t law_size(Index place) const { return branches(cell_of(place)).size(); }
+  std::span<const double> law_numbers(Index place, const CellHistories& histories) const {
+    return histories.of(place).first(law_size(place));
+  }
+
+  const Mesh& mesh_;
+  CellField<const HyperelasticMaterial*> material_;
+  bool is_plane_stress_ = false;
+  RelaxingGaps gaps_;
+  std::vector<Index> cells_of_own_;
+  CellHistories start_;
+  double duration_ = 0.0;
+  HistoryStress left_;
+  std::map<const HyperelasticMaterial*, double> modulus_of_;
+};
+
+}  // namespace pfdm
