@@ -160,8 +160,13 @@ void InterfaceLaw::rub(const InterfaceStrength& at, const Opening& o, const Inte
   response.history.rubbed -= (D - D_before) * mean_of_ends(elastic_before, elastic);
 }
 
+double InterfaceLaw::growth(const Vector& n, const Vector& separation, const InterfaceHistory& before) const {
+  return Opening(*this, n, separation).lambda - Opening::of(*this, n, before).lambda;
+}
+
 InterfaceResponse InterfaceLaw::respond(const InterfaceStrength& at, const Vector& n, const Vector& separation,
-                                        const InterfaceHistory& before, double duration) const {
+                                        const InterfaceHistory& before, double duration,
+                                        std::optional<double> overstress) const {
   if (own_law) return own_law->respond(at, n, separation, before, duration);
   const Opening o(*this, n, separation);
   InterfaceResponse response{.traction = {}, .tangent = {}, .secant = {}, .history = before};
@@ -173,7 +178,7 @@ InterfaceResponse InterfaceLaw::respond(const InterfaceStrength& at, const Vecto
   response.secant = own.secant;
   response.tangent = own.secant + own.secant_change;
   response.stored = 0.5 * own.traction.dot(separation);
-  if (rate.any()) resist(at, o, before, duration, response);
+  if (rate.any()) resist(at, o, before, duration, overstress, response);
   if (!branches.empty()) relax(at, o, before, own, duration, response);
   if (friction > 0.0) rub(at, o, before, own, response);
   if (!o.is_closed()) return response;

@@ -38,6 +38,7 @@
 #include "physics/tensor.h"
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -96,6 +97,8 @@ struct InterfaceResponse {
   InterfaceHistory history{};
   double stored = 0.0;                        ///< [J/m^2]
   Vector dissipation_slope = Vector::Zero();  ///< of what decohesion dissipates, by the separation [Pa]
+  Vector by_overstress = Vector::Zero();      ///< derivative of the traction by r [Pa]
+  Vector overstress_slope = Vector::Zero();  ///< of r by the separation [1/m]: by_overstress times it is in the tangent
 };
 
 /// A law of one's own in place of those above, at small strain. A step that takes no time to the separation of the
@@ -125,9 +128,13 @@ struct InterfaceLaw {
   std::shared_ptr<const OwnInterfaceLaw> own_law{};  ///< takes the place of all above, of contact as well
 
   /// Response at the separation [m] of the side that the unit normal n enters from the other one, after `before` and a
-  /// step of this duration [s]. 0: no time passes, r and q stay what they were.
+  /// step of this duration [s]. 0: no time passes, r and q stay what they were. `overstress`: r where it is known
+  /// better than from the separation, which hardly tells it of a face at rest (solver/fracture/equilibrium).
   InterfaceResponse respond(const InterfaceStrength& at, const Vector& n, const Vector& separation,
-                            const InterfaceHistory& before, double duration = 0.0) const;
+                            const InterfaceHistory& before, double duration = 0.0,
+                            std::optional<double> overstress = {}) const;
+  /// By how much lambda exceeds that of `before` at this separation [m].
+  double growth(const Vector& n, const Vector& separation, const InterfaceHistory& before) const;
   /// Stiffness of the unbroken interface in opening [Pa/m].
   double initial_stiffness(const InterfaceStrength& at) const;
   /// Stiffness of the unbroken interface in shear [Pa/m].
@@ -168,7 +175,7 @@ struct InterfaceLaw {
   Loss lost_by_mode(const InterfaceStrength& at, const Opening& from, const Opening& to, double kept, const LawPoint& p,
                     const Vector& secant_slope) const;
   void resist(const InterfaceStrength& at, const Opening& opening, const InterfaceHistory& before, double duration,
-              InterfaceResponse& response) const;
+              std::optional<double> overstress, InterfaceResponse& response) const;
   void relax(const InterfaceStrength& at, const Opening& opening, const InterfaceHistory& before, const Pull& own,
              double duration, InterfaceResponse& response) const;
   void rub(const InterfaceStrength& at, const Opening& opening, const InterfaceHistory& before, const Pull& own,

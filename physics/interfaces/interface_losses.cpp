@@ -126,15 +126,19 @@ double InterfaceLaw::stored_after(const InterfaceStrength& at, const InterfaceHi
 
 // Adds the resistance by rate to a response without rate, contact and friction.
 void InterfaceLaw::resist(const InterfaceStrength& at, const Opening& o, const InterfaceHistory& before,
-                          double duration, InterfaceResponse& response) const {
+                          double duration, std::optional<double> overstress, InterfaceResponse& response) const {
   const double growth = o.lambda - Opening::of(*this, o.n, before).lambda;
-  const Overstress r = duration > 0.0 ? rate.at(growth / duration) : Overstress{before.overstress, 0.0};
+  const double v = duration > 0.0 ? (overstress ? rate.rate_of(*overstress) : growth / duration) : 0.0;
+  Overstress r = duration > 0.0 ? rate.at(v) : Overstress{before.overstress, 0.0};
+  if (duration > 0.0 && overstress) r.value = *overstress;
   const double taken_up =
       response.stored - stored_after(at, before) + response.history.dissipated - before.dissipated;  // [J/m^2]
   if (growth > 0.0) response.history.viscous += mean_of_ends(before.overstress, r.value) * taken_up;
   response.history.overstress = r.value;
   response.tangent *= 1.0 + r.value;
-  if (r.slope > 0.0) response.tangent += r.slope / (duration * o.lambda) * response.traction * o.measured.transpose();
+  response.by_overstress = response.traction;
+  if (r.slope > 0.0 && o.lambda > 0.0) response.overstress_slope = r.slope / (duration * o.lambda) * o.measured;
+  response.tangent += response.by_overstress * response.overstress_slope.transpose();
   response.traction *= 1.0 + r.value;
   response.secant *= 1.0 + r.value;
 }

@@ -9,7 +9,8 @@
 //   logarithmic   r = c ln(1 + v/v_0)   adhesives at impact (Marzi, Hesebeck, Brede, Kleiner,
 //                 J. Adhes. Sci. Technol. 23 (2009) 881), here without a lower limit of the rate
 //
-// With m < 1 the first has an infinite slope at rest: below 1e-12 v_0 it is straight.
+// With m < 1 the first has an infinite slope at rest: below 1e-12 v_0 it is straight. Where a face hardly moves its
+// overstress follows from its balance, and the rate from that.
 
 #include "physics/law_parameters.h"
 
@@ -30,6 +31,7 @@ struct InterfaceRateLaw {
   std::string_view description;
   std::span<const LawParameter> parameters;
   Overstress (*overstress)(const LawParameters& p, double rate);
+  double (*rate)(const LawParameters& p, double overstress);  ///< its inverse [m/s]
 };
 std::span<const InterfaceRateLaw> interface_rate_laws();
 
@@ -41,6 +43,8 @@ struct InterfaceRate {
   bool any() const { return law != nullptr; }
   /// Overstress at a rate of the separation [m/s]; nothing where it does not grow.
   Overstress at(double rate) const { return rate > 0.0 ? law->overstress(p, rate) : Overstress{}; }
+  /// The rate of the separation that has this overstress [m/s]; zero of none.
+  double rate_of(double overstress) const { return overstress > 0.0 ? law->rate(p, overstress) : 0.0; }
 };
 
 }  // namespace pfdm

@@ -148,7 +148,8 @@ Equilibrium Staggered::solve_momentum(const FractureState& start, FractureState&
   const auto lap = clock_.lap("momentum");
   if (faces_.any()) {
     const CellLaws cells = stiffness_.is_linearised() ? [&] { stiffness_.set(state, momentum_); } : CellLaws();
-    return solve_with_faces(faces_, start.interfaces, state.load, tolerance, cells, momentum_, state.displacement);
+    return solve_with_faces(faces_, start.interfaces, state.load, tolerance, cells, momentum_, state.displacement,
+                            state.interfaces);
   }
   if (stiffness_.finite().any()) return solve_finite(stiffness_, tolerance, momentum_, state, most_newton_steps);
   if (stiffness_.is_linearised()) return solve_with_laws(stiffness_, tolerance, momentum_, state);

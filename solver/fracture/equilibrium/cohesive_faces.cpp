@@ -1,15 +1,11 @@
 #include "solver/fracture/equilibrium/cohesive_faces.h"
 
-#include "physics/elasticity/gradient_stress.h"
 #include "physics/error.h"
 #include "physics/quantity_text.h"
-#include "solver/fracture/equilibrium/balanced_separation.h"
 #include "solver/momentum/finite_strain/finite_tractions.h"
 #include "solver/parallel.h"
 
 #include <fmt/format.h>
-
-#include <Eigen/Eigenvalues>
 
 #include <algorithm>
 #include <cmath>
@@ -21,21 +17,6 @@ namespace pfdm {
 namespace {
 
 constexpr double rigid_stiffness = 1e3;  // over that of the cells beside the face
-
-// w x v = across(n, v) dn, where n turns by dn = w x n.
-Tensor across(const Vector& n, const Vector& v) { return n.dot(v) * Tensor::Identity() - n * v.transpose(); }
-
-// Derivative of c/|c| by c.
-Tensor by_length(const Vector& c) {
-  const Vector n = c.normalized();
-  return (Tensor::Identity() - n * n.transpose()) / c.norm();
-}
-
-/// Without what softens: the symmetric part's negative eigenvalues are zero.
-Tensor convex_part(const Tensor& tangent) {
-  const Eigen::SelfAdjointEigenSolver<Tensor> solver(0.5 * (tangent + tangent.transpose()));
-  return solver.eigenvectors() * solver.eigenvalues().cwiseMax(0.0).asDiagonal() * solver.eigenvectors().transpose();
-}
 
 }  // namespace
 
@@ -104,70 +85,14 @@ Vector CohesiveFaces::normal(const Face& face, const MomentumOperator& balance) 
   return (c_P.normalized() + c_N.normalized()).normalized();
 }
 
-// The law is isotropic: if its normal alone turns by w, its traction changes by w x T - K (w x delta).
-void CohesiveFaces::turn(const Face& face, const MomentumOperator& balance, const Vector& separation,
-                         const InterfaceResponse& at, FaceSpring& spring) const {
-  const Vector c_P = balance.finite()->states().cofactors()[face.P] * face.n,
-               c_N = balance.finite()->states().cofactors()[face.N] * face.n;
-  const Vector sum = c_P.normalized() + c_N.normalized(), n = sum.normalized();
-  const Tensor by_sum = (across(n, at.traction) - at.tangent * across(n, separation)) * by_length(sum);
-  spring.turn_P = by_sum * by_length(c_P);
-  spring.turn_N = by_sum * by_length(c_N);
-  const auto change = [&](Index cell) {
-    const Tensor& F = balance.finite()->states().deformation()[cell];
-    return (cofactor_change(F, F - Tensor::Identity()) * face.n).eval();
-  };
-  spring.offset -= spring.turn_P * change(face.P) + spring.turn_N * change(face.N);
-}
-
-void CohesiveFaces::linearise(const std::vector<Vector>& u, const std::vector<InterfaceHistory>& before, Way way,
-                              MomentumSolver& momentum) const {
-  std::vector<FaceSpring> springs(faces_.size());
-  parallel_for(count_of(faces_), [&](Index k) {
-    const Vector separation = momentum.balance().separation(k, u);
-    const Vector n = normal(faces_[k], momentum.balance());
-    const InterfaceResponse response = law(faces_[k]).respond(faces_[k].at, n, separation, before[k], duration_);
-    const Tensor stiffness = way == Way::tangent ? response.tangent : convex_part(response.tangent);
-    springs[k] = {.stiffness = stiffness,
-                  .offset = response.traction - stiffness * separation,
-                  .secant = way == Way::tangent ? response.secant : stiffness};
-    if (way == Way::tangent && momentum.balance().finite() != nullptr)
-      turn(faces_[k], momentum.balance(), separation, response, springs[k]);
-  });
-  momentum.set_springs(std::move(springs), bond_);
-}
-
-// With the sides' tractions t_P, t_N and compliances c_P, c_N: T(delta) = T,
-//
-//   (c_P + c_N) T + delta = delta_0 + c_P t_P - c_N t_N,
-//
-// whose solution is unique where the law does not fall more steeply than the cells beside it unload.
-void CohesiveFaces::settle(const std::vector<InterfaceHistory>& before, const MomentumOperator& balance,
-                           std::vector<Vector>& u) const {
-  const std::vector<MomentumOperator::SplitSides> sides = balance.split_sides(u);
-  parallel_for(count_of(faces_), [&](Index k) {
-    const Face& face = faces_[k];
-    const MomentumOperator::SplitSides& s = sides[k];
-    const Tensor give = s.give + s.give_beyond;
-    const Vector now = balance.separation(k, u);
-    const Vector due = now + s.give * s.traction - s.give_beyond * s.traction_beyond;
-    const Vector n = normal(face, balance);
-    const auto separation = balanced_separation(law(face), face.at, n, before[k], give, due, now, duration_);
-    if (!separation) return;
-    const Vector traction = law(face).respond(face.at, n, *separation, before[k], duration_).traction;
-    balance.part(k, s.give * (traction - s.traction), -(s.give_beyond * (traction + s.traction_beyond)), u);
-  });
-}
-
 double CohesiveFaces::advance(const MomentumOperator& balance, const std::vector<Vector>& u,
                               const std::vector<InterfaceHistory>& before, std::vector<InterfaceHistory>& after) const {
   after.resize(faces_.size());
   return parallel_sum(count_of(faces_), [&](Index k) {
-    const Face& face = faces_[k];
     const InterfaceResponse response =
-        law(face).respond(face.at, normal(face, balance), balance.separation(k, u), before[k], duration_);
+        respond(k, normal(faces_[k], balance), balance.separation(k, u), before[k], after[k]);
     after[k] = response.history;
-    return face.area * response.stored;
+    return faces_[k].area * response.stored;
   });
 }
 

@@ -40,13 +40,15 @@ class CohesiveFaces {
   std::vector<InterfaceHistory> virgin_histories() const { return std::vector<InterfaceHistory>(faces_.size()); }
 
   enum class Way { tangent, convex };
-  /// Gives the momentum balance the laws about the displacements u, after `before`.
-  void linearise(const std::vector<Vector>& u, const std::vector<InterfaceHistory>& before, Way way,
-                 MomentumSolver& momentum) const;
-  /// Moves the sides of each face to where its law and the cells beside it balance, everything else held.
-  void settle(const std::vector<InterfaceHistory>& before, const MomentumOperator& balance,
-              std::vector<Vector>& u) const;
-  /// Takes the histories from `before` to the displacements u. Returns the stored energy [J].
+  /// Gives the momentum balance the laws about the displacements u, after `before`; `after` as settle() has left it.
+  void linearise(const std::vector<Vector>& u, const std::vector<InterfaceHistory>& before,
+                 const std::vector<InterfaceHistory>& after, Way way, MomentumSolver& momentum) const;
+  /// Moves the sides of each face to where its law and the cells beside it balance, everything else held. Of faces
+  /// whose traction depends on the rate of opening the overstress goes into `after`.
+  void settle(const std::vector<InterfaceHistory>& before, const MomentumOperator& balance, std::vector<Vector>& u,
+              std::vector<InterfaceHistory>& after) const;
+  /// Takes the histories from `before` to the displacements u, with the overstresses that `after` has. Returns the
+  /// stored energy [J].
   double advance(const MomentumOperator& balance, const std::vector<Vector>& u,
                  const std::vector<InterfaceHistory>& before, std::vector<InterfaceHistory>& after) const;
   /// Energy dissipated by decohesion and friction from one state to the other [J].
@@ -87,6 +89,9 @@ class CohesiveFaces {
   Vector normal(const Face& face, const MomentumOperator& balance) const;
   void turn(const Face& face, const MomentumOperator& balance, const Vector& separation, const InterfaceResponse& at,
             FaceSpring& spring) const;
+  InterfaceResponse respond(Index k, const Vector& n, const Vector& separation, const InterfaceHistory& before,
+                            const InterfaceHistory& after) const;
+  bool has_rate(const Face& face) const { return duration_ > 0.0 && law(face).rate.any(); }
   bool has_debonded(std::size_t k, const Vector& n, const Vector& separation, const InterfaceHistory& history) const;
   const InterfaceLaw& law(const Face& face) const { return model_.interfaces[face.surface].law; }
 

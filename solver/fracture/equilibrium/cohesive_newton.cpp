@@ -85,7 +85,7 @@ void shorten(const std::vector<Vector>& from, const CellLaws& cells, MomentumSol
 
 Equilibrium solve_with_faces(const CohesiveFaces& faces, const std::vector<InterfaceHistory>& before, double t,
                              const MomentumSolver::Tolerance& tolerance, const CellLaws& cells,
-                             MomentumSolver& momentum, std::vector<Vector>& u) {
+                             MomentumSolver& momentum, std::vector<Vector>& u, std::vector<InterfaceHistory>& after) {
   Equilibrium whole{.converged = false, .iterations = 0, .initial_residual = 0.0, .residual = 0.0};
   double target = 0.0, last = std::numeric_limits<double>::infinity();
   WayOut way_out(u);
@@ -97,8 +97,12 @@ Equilibrium solve_with_faces(const CohesiveFaces& faces, const std::vector<Inter
   for (Index k = 0; k < most; ++k) {
     // The residual at the start of a solve is that of the true laws.
     const bool newton = way == CohesiveFaces::Way::tangent;
-    if (cells || tolerance.good_enough > 0.0) from = u;
-    faces.linearise(u, before, way, momentum);
+    if (has_rate) {
+      momentum.balance().prescribe(t, u);
+      faces.settle(before, momentum.balance(), u, after);
+    }
+    if (has_rate || cells || tolerance.good_enough > 0.0) from = u;
+    faces.linearise(u, before, after, way, momentum);
     const Equilibrium step =
         momentum.solve(t,
                        {.reduction = newton ? linear_reduction : convex_reduction,
@@ -114,6 +118,10 @@ Equilibrium solve_with_faces(const CohesiveFaces& faces, const std::vector<Inter
       target = target_of(tolerance, step.initial_residual);
     }
     whole.converged = step.initial_residual <= target;
+    if (whole.converged && has_rate) {  // the overstresses belong to it
+      u = std::move(from);
+      if (cells) cells();
+    }
     if (whole.converged || !std::isfinite(step.residual)) return whole;
     const bool solved = step.residual < bearable_rest * step.initial_residual;
     if (step.initial_residual <= tolerance.good_enough && !(solved && step.initial_residual < falls * last)) {
@@ -121,12 +129,13 @@ Equilibrium solve_with_faces(const CohesiveFaces& faces, const std::vector<Inter
       if (cells) cells();
       return whole;
     }
-    if (has_rate || way_out.is_marching() || step.initial_residual > falls * last)
-      faces.settle(before, momentum.balance(), u);
+    if (!has_rate && (way_out.is_marching() || step.initial_residual > falls * last))
+      faces.settle(before, momentum.balance(), u, after);
     last = step.initial_residual;
     way = way_out.next(step.initial_residual, solved, u);
     if (cells) cells();
   }
+  if (has_rate) faces.settle(before, momentum.balance(), u, after);
   if (cells) whole.residual = std::numeric_limits<double>::infinity();
   return whole;
 }
@@ -206,7 +215,7 @@ Equilibrium follow_with_faces(const CohesiveFaces& faces, const std::vector<Inte
   Equilibrium whole;
   double target = 0.0;
   for (Index k = 0; k < most_turns; ++k) {
-    faces.linearise(u, before, CohesiveFaces::Way::tangent, momentum);
+    faces.linearise(u, before, before, CohesiveFaces::Way::tangent, momentum);
     const double excess = follower.excess(u);
     SolutionLine line{.load = load, .u = u, .slope = {}};
     const Equilibrium step = momentum.solve(load, follower.inner, line.u);

@@ -148,7 +148,7 @@ TEST_P(FiniteSprings, AreTheDerivative) {
   };
   const auto linearise = [&] {
     cells.set(state, momentum);
-    faces.linearise(state.displacement, virgin, CohesiveFaces::Way::tangent, momentum);
+    faces.linearise(state.displacement, virgin, virgin, CohesiveFaces::Way::tangent, momentum);
   };
   state.displacement = u;
   linearise();
