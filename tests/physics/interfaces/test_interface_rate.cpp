@@ -23,10 +23,39 @@ TEST_P(InterfaceRates, AreZeroAtRestAndHaveTheirSlope) {
   EXPECT_EQ(rate.at(0.0).value, 0.0);
   EXPECT_EQ(rate.at(-v_0).value, 0.0);
   EXPECT_EQ(rate.at(-v_0).slope, 0.0);
+  EXPECT_EQ(rate.rate_of(0.0), 0.0);
   for (const double v : {1e-16, 1e-9, 1e-5, 1e-3, 10.0}) {
     const double change = 1e-5 * v, slope = (rate.at(v + change).value - rate.at(v - change).value) / (2.0 * change);
     EXPECT_NEAR(rate.at(v).slope, slope, 1e-6 * slope) << v;
     EXPECT_GT(rate.at(1.1 * v).value, rate.at(v).value);
+    EXPECT_NEAR(rate.rate_of(rate.at(v).value), v, 1e-9 * v);
+  }
+}
+
+// At rest the separation does not tell r: the traction is that of a given one, the same as at its rate.
+TEST_P(InterfaceRates, PullAsAGivenOverstressSays) {
+  InterfaceLaw law = interface_with(law_named("linear"), "camacho_ortiz", 0.7);
+  law.rate = rate_of(GetParam());
+  constexpr double duration = 1e-2;
+  const double length = glued.toughness / glued.strength;
+  const InterfaceHistory before = law.respond(glued, n, 0.3 * length * n, {}, duration).history;
+  const Vector delta = length * (0.35 * n + 0.2 * s);
+  const double r = law.rate.at(law.growth(n, delta, before) / duration).value;
+  const InterfaceResponse by_rate = law.respond(glued, n, delta, before, duration),
+                          given = law.respond(glued, n, delta, before, duration, r),
+                          more = law.respond(glued, n, delta, before, duration, r + 0.1);
+  EXPECT_LT((given.traction - by_rate.traction).norm(), 1e-12 * glued.strength);
+  EXPECT_LT((given.tangent - by_rate.tangent).norm(), 1e-8 * by_rate.tangent.norm());
+  EXPECT_LT((given.traction + 0.1 * given.by_overstress - more.traction).norm(), 1e-12 * glued.strength);
+  EXPECT_EQ(more.history.overstress, r + 0.1);
+  const double step = 1e-6 * length;
+  for (int i = 0; i < 3; ++i) {
+    const Vector d = step * Vector::Unit(i);
+    const auto overstress = [&](const Vector& at) {
+      return law.respond(glued, n, at, before, duration).history.overstress;
+    };
+    EXPECT_NEAR(given.overstress_slope[i], (overstress(delta + d) - overstress(delta - d)) / (2.0 * step),
+                1e-6 / length);
   }
 }
 

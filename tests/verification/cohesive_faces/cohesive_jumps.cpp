@@ -3,10 +3,12 @@
 #include "physics/registry.h"
 #include "tests/verification/support.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace pfdm::verification::this_file {
 namespace {
@@ -48,12 +50,22 @@ struct Debonding {
   double krylov_iterations = 0.0;
 };
 
-Debonding debond(const Mesh& mesh, double displacement, double increment) {
-  FractureRun run(mesh, bead_in_a_block(mesh), {},
+/// A power law of the rate of opening, and the time of the whole displacement; none without duration.
+struct Resistance {
+  double m = 1.0, reference_rate = 1.0, duration = 0.0;
+};
+
+Debonding debond(const Mesh& mesh, double displacement, double increment, const Resistance& resistance = {}) {
+  FractureModel model = bead_in_a_block(mesh);
+  if (resistance.duration > 0.0)
+    model.interfaces[0].law.rate = {.law = &find_by_name(interface_rate_laws(), "power", "rate law"),
+                                    .p = {resistance.m, resistance.reference_rate}};
+  FractureRun run(mesh, std::move(model), {},
                   {.end = displacement,
                    .initial_increment = increment,
                    .minimum_increment = increment,
                    .maximum_increment = increment,
+                   .duration = resistance.duration / displacement,
                    .stops = {}});
   const auto top = mesh.patch_index("zmax");
   Debonding result;
@@ -88,6 +100,23 @@ TEST(CohesiveJumps, OfACoatedBeadTakeFewIterationsThoughItTurnsFreely) {
                                                     {"broken part of the surface", coated.broken / (1.4 * 1.4)}});
   EXPECT_GT(coated.broken / (1.4 * 1.4), 0.5);
   EXPECT_LT(coated.krylov_iterations, 4900.0);
+}
+
+// Past the debonding of both poles, at mean rates of 72 v_0 and 1/140 v_0. With a power law of the rate the faces that
+// do not break any more come to rest, each at its own overstress, where the law is infinitely steep.
+TEST(CohesiveJumps, OfABeadWithAPowerLawOfTheRateTakeAsFew) {
+  const Mesh mesh = sphere_in_cube(3, 0, 3.0, 0.8);
+  for (const double m : {0.05, 0.2})
+    for (const double duration : {0.01, 100.0}) {
+      const Debonding resisted = debond(mesh, 3.6, 0.3, {.m = m, .reference_rate = 5.0, .duration = duration});
+      report_row(fmt::format("bead with a power law of the rate, m = {}, {} s", m, duration),
+                 {{"cells", double(mesh.n_cells())},
+                  {"Krylov iterations of 12 steps", resisted.krylov_iterations},
+                  {"broken part of the surface", resisted.broken},
+                  {"force at the end", resisted.force.back()}});
+      EXPECT_GT(resisted.broken, 0.55);
+      EXPECT_LT(resisted.krylov_iterations, 8000.0);
+    }
 }
 
 }  // namespace
