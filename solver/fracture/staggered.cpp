@@ -39,12 +39,13 @@ StepOutcome Staggered::solve_step(const FractureState& start, FractureState& sta
                                   const IterationWatch& watch) {
   stiffness_.start_step(limits.duration);
   faces_.start_step(limits.duration);
+  telling_ = {.watch = watch, .last = {.step = state.step, .load = state.load}};
   momentum_.start_afresh();  // as a restarted run does
   stiffness_.start_from(start, 0.0);
   const StrengthDrive strength_before = strength_drive_of(start);
   const FreeStrained strained_before = free_strained(start);
   stiffness_.start_from(start, limits.duration);
-  StepOutcome outcome = alternate(start, state, limits, watch);
+  StepOutcome outcome = alternate(start, state, limits);
   if (outcome.failed || outcome.broke_too_much || outcome.collapsed) return outcome;
   // Reactions balance, and energies belong to the damage of the step.
   degrade(state);
@@ -149,7 +150,7 @@ Equilibrium Staggered::solve_momentum(const FractureState& start, FractureState&
   if (faces_.any()) {
     const CellLaws cells = stiffness_.is_linearised() ? [&] { stiffness_.set(state, momentum_); } : CellLaws();
     return solve_with_faces(faces_, start.interfaces, state.load, tolerance, cells, momentum_, state.displacement,
-                            state.interfaces);
+                            state.interfaces, watch_of_balance(state));
   }
   if (stiffness_.finite().any()) return solve_finite(stiffness_, tolerance, momentum_, state, most_newton_steps);
   if (stiffness_.is_linearised()) return solve_with_laws(stiffness_, tolerance, momentum_, state);

@@ -15,7 +15,10 @@
 #include "solver/fracture/stage_clock.h"
 #include "solver/momentum/solution/momentum_solver.h"
 
+#include <chrono>
+#include <functional>
 #include <limits>
+#include <string>
 
 namespace pfdm {
 
@@ -93,8 +96,17 @@ class Staggered {
  private:
   struct Loop;
   /// The loop of solve_step; the energies of the outcome are not set.
-  StepOutcome alternate(const FractureState& start, FractureState& state, const StepLimits& limits,
-                        const IterationWatch& watch);
+  StepOutcome alternate(const FractureState& start, FractureState& state, const StepLimits& limits);
+  /// What sees the step, its last iteration, when it began, and whether it has said that it takes long.
+  struct Telling {
+    IterationWatch watch{};
+    IterationReport last{};
+    std::chrono::steady_clock::time_point began = std::chrono::steady_clock::now();
+    bool has_said = false;
+  };
+  /// Tells of an iteration; `words` on what holds it up are asked for where the step takes long.
+  void tell(IterationReport report, const std::function<std::string()>& words);
+  BalanceWatch watch_of_balance(const FractureState& state);
   Equilibrium solve_momentum(const FractureState& start, FractureState& state,
                              const MomentumSolver::Tolerance& tolerance, Index most_newton_steps);
   /// Finds the equilibrium at a load that is no more than that of the path, and lower where the cohesive faces would
@@ -144,6 +156,7 @@ class Staggered {
   Relaxation::Way way_;
   bool has_newton_;  // the response to which is smooth enough for it
   StageClock clock_;
+  Telling telling_;
   CellField<double> psi_plus_;        // [J/m^3] of the last equilibrium
   CellField<FiniteEnergies> finite_;  // of the last equilibrium; empty at small strain
   StrengthDrive strength_;            // of the last equilibrium

@@ -2,6 +2,7 @@
 
 #include "solver/fracture/staggered.h"
 
+#include "solver/fracture/unconverged.h"
 #include "solver/parallel.h"
 
 #include <algorithm>
@@ -207,16 +208,36 @@ CoupledNewton::Moved Staggered::Loop::advance(CellField<double>& answer) {
   return moved;
 }
 
-StepOutcome Staggered::alternate(const FractureState& start, FractureState& state, const StepLimits& limits,
-                                 const IterationWatch& watch) {
+StepOutcome Staggered::alternate(const FractureState& start, FractureState& state, const StepLimits& limits) {
   Loop loop(*this, start, state, limits);
   while (!loop.ends()) {
     const Index iterations = loop.outcome.iterations;
     loop.iterate();
-    if (watch && loop.outcome.iterations > iterations) watch(loop.report);
+    if (loop.outcome.iterations > iterations)
+      tell(loop.report, [&] { return what_changes(mesh_, settings_, loop.outcome); });
   }
   loop.outcome.circles = !loop.outcome.converged && loop.relaxation.goes_in_circles();
   return loop.outcome;
+}
+
+void Staggered::tell(IterationReport report, const std::function<std::string()>& words) {
+  if (!report.in_balance) telling_.last = report;
+  if (!telling_.watch) return;
+  const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - telling_.began;
+  if (!telling_.has_said && taken.count() >= settings_.long_step) {
+    telling_.has_said = true;
+    report.remark = long_step_words(report, taken.count(), words());
+  }
+  telling_.watch(report);
+}
+
+BalanceWatch Staggered::watch_of_balance(const FractureState& state) {
+  if (!telling_.watch) return {};
+  return [&](Index solves, double residual) {
+    IterationReport report = telling_.last;
+    report.in_balance = true;
+    tell(report, [&] { return what_is_unbalanced(mesh_, unknowns_, settings_, momentum_, state, {solves, residual}); });
+  };
 }
 
 }  // namespace pfdm

@@ -44,6 +44,30 @@ std::string what_changes(const Mesh& mesh, const StaggeredSettings& settings, co
   return left.empty() ? "the last iteration has not settled" : fmt::format("{}", fmt::join(left, ", "));
 }
 
+std::string what_is_unbalanced(const Mesh& mesh, const Unknowns& unknowns, const StaggeredSettings& settings,
+                               const MomentumSolver& momentum, const FractureState& state,
+                               const BalanceSoFar& balance) {
+  std::vector<Vector> rest = momentum.unbalanced_forces(state.load, state.displacement);
+  momentum.balance().add_spring_offsets(rest);
+  const auto size = [&](Index i) { return rest[i].norm() * momentum.row_scale()[i]; };
+  Index node = 0;
+  for (Index i = 1; i < unknowns.n_nodes(); ++i)
+    if (size(i) > size(node)) node = i;
+  const bool is_cell = node < unknowns.n_cells;
+  const Vector x = unknowns.place(mesh, node);
+  return fmt::format(
+      "the balance of the interfaces has a residual of {:.1e} after {} linear solves (solver.equilibrium_tolerance = "
+      "{:g}), most in the {} at ({:.4g}, {:.4g}, {:.4g}) m",
+      balance.residual, balance.solves, settings.equilibrium_tolerance, is_cell ? "cell" : "face", x[0], x[1], x[2]);
+}
+
+std::string long_step_words(const IterationReport& report, double seconds, const std::string& held_up) {
+  return fmt::format(
+      "step {} at load {:.6g} has taken {:.0f} s so far, {} iterations: {}. What may help: a smaller "
+      "loading.maximum_increment, or a larger tolerance of those named",
+      report.step, report.load, seconds, report.iteration, held_up);
+}
+
 Remedies remedies_of(const Mesh& mesh, const FractureModel& model, const Unknowns& unknowns,
                      const LoadingSettings& loading, const std::vector<Vector>& tractions) {
   Remedies may;

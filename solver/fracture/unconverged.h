@@ -1,5 +1,5 @@
 #pragma once
-// Messages on a step that did not converge.
+// Messages on a step that did not converge, or takes long.
 
 #include "solver/fracture/staggered.h"
 
@@ -11,6 +11,19 @@ namespace pfdm {
 /// The criteria that do not hold, with the cell whose damage changes most: "the damage of cell 12 at (...) m changes by
 /// 3e-04 ...".
 std::string what_changes(const Mesh& mesh, const StaggeredSettings& settings, const StepOutcome& outcome);
+
+/// Linear solves of a balance until now, and its relative residual.
+struct BalanceSoFar {
+  Index solves = 0;
+  double residual = 0.0;
+};
+/// How far the balance of a step's interfaces is, and the place of the largest unbalanced force: "the balance of the
+/// interfaces has a residual of 2e-04 after 300 linear solves ...".
+std::string what_is_unbalanced(const Mesh& mesh, const Unknowns& unknowns, const StaggeredSettings& settings,
+                               const MomentumSolver& momentum, const FractureState& state, const BalanceSoFar& balance);
+
+/// How far a step is after `seconds`, with the words on what holds it up.
+std::string long_step_words(const IterationReport& report, double seconds, const std::string& held_up);
 
 /// Remedies that the case allows, to be tried where the smallest increment does not converge.
 struct Remedies {

@@ -85,7 +85,8 @@ void shorten(const std::vector<Vector>& from, const CellLaws& cells, MomentumSol
 
 Equilibrium solve_with_faces(const CohesiveFaces& faces, const std::vector<InterfaceHistory>& before, double t,
                              const MomentumSolver::Tolerance& tolerance, const CellLaws& cells,
-                             MomentumSolver& momentum, std::vector<Vector>& u, std::vector<InterfaceHistory>& after) {
+                             MomentumSolver& momentum, std::vector<Vector>& u, std::vector<InterfaceHistory>& after,
+                             const BalanceWatch& watch) {
   Equilibrium whole{.converged = false, .iterations = 0, .initial_residual = 0.0, .residual = 0.0};
   double target = 0.0, last = std::numeric_limits<double>::infinity();
   WayOut way_out(u);
@@ -103,6 +104,7 @@ Equilibrium solve_with_faces(const CohesiveFaces& faces, const std::vector<Inter
     }
     if (has_rate || cells || tolerance.good_enough > 0.0) from = u;
     faces.linearise(u, before, after, way, momentum);
+    if (watch && k > 0) watch(k, whole.residual);
     const Equilibrium step =
         momentum.solve(t,
                        {.reduction = newton ? linear_reduction : convex_reduction,

@@ -14,13 +14,18 @@ namespace pfdm {
 /// Linearises the balance about the u that is solved for; empty at small strain.
 using CellLaws = std::function<void()>;
 
+/// Sees an equilibrium that is looked for: linear solves until now, and the residual after the last but one. The
+/// balance is linearised about u.
+using BalanceWatch = std::function<void(Index solves, double residual)>;
+
 /// Equilibrium with the laws of the faces at the load t: as MomentumSolver::solve, the residual being that with the
 /// laws at u. At finite strain a step is halved while a sound cell turns inside out, the residual is infinite if no
 /// equilibrium is found, and the balance is left linearised about u. Overstresses by the rate of opening go into
 /// `after`.
 Equilibrium solve_with_faces(const CohesiveFaces& faces, const std::vector<InterfaceHistory>& before, double t,
                              const MomentumSolver::Tolerance& tolerance, const CellLaws& cells,
-                             MomentumSolver& momentum, std::vector<Vector>& u, std::vector<InterfaceHistory>& after);
+                             MomentumSolver& momentum, std::vector<Vector>& u, std::vector<InterfaceHistory>& after,
+                             const BalanceWatch& watch = {});
 
 /// Equilibrium with the laws of the faces where a step may dissipate no more than a given energy. The load is an
 /// unknown then, at most `most_load`, and falls below that of the step before where the body snaps back. Each iteration

@@ -131,6 +131,7 @@ struct StaggeredSettings {
   double energy_tolerance = 1e-4;       ///< change of the total energy over the energy
   double equilibrium_tolerance = 1e-6;  ///< row-scaled residual of the momentum balance at an accepted step, relative
   Index maximum_iterations = 500;
+  double long_step = 120.0;              ///< time after which a step says how far it is [s]
   const LinearSolver* linear = nullptr;  ///< of the momentum balance; null: the automatic choice
 };
 

@@ -3,6 +3,7 @@
 #include "physics/tensor.h"
 
 #include <functional>
+#include <string>
 
 namespace pfdm {
 
@@ -14,8 +15,10 @@ struct IterationReport {
   double damage_change = 0.0;
   double energy_change = 0.0;
   Index krylov_iterations = 0;
+  bool in_balance = false;  ///< the iteration after this one goes on: it looks for the balance of its interfaces
+  std::string remark{};     ///< once of a step that takes long: how far it is, what holds it up, the key to change
 };
-/// Sees each iteration of a step. It may throw to give the step up.
+/// Sees each iteration of a step, and the linear solves within one. It may throw to give the step up.
 using IterationWatch = std::function<void(const IterationReport&)>;
 
 }  // namespace pfdm

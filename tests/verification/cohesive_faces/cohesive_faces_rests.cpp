@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -155,6 +156,32 @@ TEST_P(FacesAtRest, TendToTheSolutionInTime) {
   report_row(fmt::format("held, m = {}, {} s", GetParam().m, GetParam().time),
              {{"traction, 40 steps", coarse}, {"400 steps", fine}});
   EXPECT_LT(std::abs(fine), 0.2 * std::abs(coarse) + 1e-6);
+}
+
+// Steps that take longer than no time at all: within the balance, with what is out of balance and the key.
+TEST(LongSteps, SayOnceHowFarTheyAre) {
+  const GluedBlocks blocks({.m = 0.2, .time = 1.0});
+  FractureRun run(blocks.mesh, blocks.model, {.long_step = 0.0},
+                  {.end = 1.0, .initial_increment = 0.1, .maximum_increment = 0.1, .duration = 1.0, .stops = {}});
+  FractureState state = run.initial_state();
+  for (int step = 1; step <= 3; ++step) {
+    std::vector<std::string> remarks;
+    Index iterations = 0;
+    run.step(state, [&](const IterationReport& report) {
+      iterations += report.in_balance ? 0 : 1;
+      if (!report.remark.empty()) remarks.push_back(report.remark);
+    });
+    ASSERT_EQ(remarks.size(), 1u);
+    EXPECT_GT(iterations, 1);
+    for (const std::string& part :
+         {fmt::format("step {} at load", step), std::string("linear solves (solver.equilibrium_tolerance = 1e-06)"),
+          std::string("loading.maximum_increment")})
+      EXPECT_NE(remarks[0].find(part), std::string::npos) << remarks[0];
+  }
+  FractureRun quick(blocks.mesh, blocks.model, {},
+                    {.end = 1.0, .initial_increment = 0.1, .maximum_increment = 0.1, .duration = 1.0, .stops = {}});
+  state = quick.initial_state();
+  quick.step(state, [](const IterationReport& report) { EXPECT_TRUE(report.remark.empty()) << report.remark; });
 }
 
 INSTANTIATE_TEST_SUITE_P(Powers, FacesAtRest,

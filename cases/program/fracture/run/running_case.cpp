@@ -82,7 +82,8 @@ std::string advance(RunningCase& c) {
   RunProgress progress(c.session.log, c.state.load, c.program.fracture.loading.end, shown_of(c));
   const LooksForStop looks;
   const auto iterated = [&](const IterationReport& iteration) {
-    progress.iterated(iteration);
+    if (!iteration.remark.empty()) c.session.log.warn(iteration.remark);
+    if (!iteration.in_balance) progress.iterated(iteration);
     look_at_page(c, progress);
     stop_if_asked();
   };
