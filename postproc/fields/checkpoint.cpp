@@ -18,7 +18,7 @@ namespace pfdm {
 namespace {
 
 constexpr std::string_view magic = "PFDMCKPT";
-constexpr std::uint32_t format_version = 13;
+constexpr std::uint32_t format_version = 14;
 constexpr std::size_t size_position = magic.size() + sizeof(format_version);
 constexpr std::size_t header_size = size_position + sizeof(std::uint64_t);
 constexpr std::size_t checksum_size = sizeof(std::uint64_t);
@@ -97,7 +97,7 @@ class Reader {
 template <class Archive, class State>
 void archive_state(Archive& archive, State& state) {
   auto& [step, load, increment, displacement, damage, driving_energy, closure, histories, interfaces, boundary_force,
-         energy, heat] = state;
+         energy, heat, fatigue] = state;
   const auto each = [&](auto&... members) { (archive(members), ...); };
   each(step, load, increment, displacement, damage, driving_energy, closure, histories.first, histories.values,
        interfaces, boundary_force);
@@ -105,6 +105,8 @@ void archive_state(Archive& archive, State& state) {
   auto& [rise, made, cycle, transmitted, cycle_transmittance, cycle_change, account, duration] = heat;
   each(rise, made, cycle, transmitted, cycle_transmittance, cycle_change, account.made, account.stored, account.lost,
        duration);
+  auto& [accumulated, active, spent, cycle_start, cycle_growth, computed_cycles, jumped_cycles] = fatigue;
+  each(accumulated, active, spent, cycle_start, cycle_growth, computed_cycles, jumped_cycles);
 }
 
 template <class T>

@@ -1,6 +1,7 @@
 #include "solver/fracture/combinations.h"
 
 #include "physics/quantity_text.h"
+#include "solver/fracture/damage/fatigue_cells.h"
 #include "solver/fracture/finite_combinations.h"
 #include "solver/fracture/model/held_interfaces.h"
 
@@ -274,6 +275,7 @@ void require_combination(const Mesh& mesh, const FractureModel& model, const Unk
   require_loads(mesh, model, unknowns, loading);
   if (model.is_anisotropic()) require_anisotropy(mesh, model, unknowns);
   if (model.heat) require_heat(mesh, model, loading);
+  require_fatigue(mesh, model, loading);
   if (loading.controls_dissipation()) require_path(mesh, model, unknowns, loading);
 }
 

@@ -79,23 +79,12 @@ struct FractureRun::Parts {
   bool follows_faces() const { return !model.interfaces.empty() && loading.controls_dissipation(); }
 
   double next_stop(double load) const {
-    double stop = loading.end;
-    for (const double s : loading.stops)
-      if (s > load + load_rounding) stop = std::min(stop, s);
-    return std::min(stop, heat.end_of_cycle(load));
+    return std::min({next_frame(loading, load), heat.end_of_cycle(load), staggered.fatigue().next_stop(load)});
   }
 
   // held: the last load with equilibrium; load: one at which only the residual stiffness carries the tractions.
   [[noreturn]] void fail_torn(double held, double load) const {
-    const bool falls_back = loading.controls_dissipation();
-    throw NoConvergence(fmt::format(
-        "the body breaks apart between the loads {:.6g} and {:.6g}: beyond, only the residual stiffness of broken "
-        "cells carries its tractions. {}; a smaller loading.maximum_increment locates the load more exactly",
-        held, load,
-        falls_back ? "No intact ligament carries load any more"
-        : model.is_finite_strain()
-            ? "Prescribe displacements instead"
-            : "Prescribe displacements instead, or use dissipation control (loading.maximum_dissipation)"));
+    throw NoConvergence(torn_words(held, load, loading, model.is_finite_strain()));
   }
 
   Remedies remedies(double load) const {
@@ -135,13 +124,14 @@ struct FractureRun::Parts {
     const double increment = next.load - state.load;
     next.boundary_force = staggered.momentum().balance().boundary_forces(next.displacement);
     next.energy = outcome.energy;
-    next.energy.fracture = staggered.damage_equation().fracture_energy(next.damage);
+    next.energy.fracture = staggered.surface_energy(next);
     next.energy.external_work =
         state.energy.external_work + staggered.work(state, next.load, next.boundary_force, next.displacement);
     next.energy.eigenstrain_work += state.energy.eigenstrain_work;
     for (const EnergyEntry& entry : energy_entries)
       if (entry.role == EnergyEntry::Role::dissipated) next.energy.*entry.value += state.energy.*entry.value;
     if (heat.any()) heat.advance(staggered, state, increment * loading.duration, next);
+    staggered.fatigue().end_cycle(next.load, next.fatigue);
     next.increment = next_increment(loading, settings, planned, outcome);
     const bool follows_path = loading.controls_dissipation();
     const std::string unstable = follows_path ? "" : spread_damage.remark(state, next, staggered);
@@ -168,6 +158,7 @@ struct FractureRun::Parts {
         staggered.faces().debonded_areas(staggered.momentum().balance(), state.displacement, state.interfaces);
     const CellField<double> damage = staggered.damage_equation().stiffness_damage().of(state.damage);
     if (heat.any()) r.heat = heat.report(state.heat);
+    if (staggered.fatigue().any()) r.fatigue = staggered.fatigue().report(state);
     r.max_damage = parallel_max(mesh.n_cells(), [&](Index c) { return damage[c]; });
     r.damaged_volume =
         parallel_sum(mesh.n_cells(), [&](Index c) { return damage[c] > 0.5 ? mesh.cell_volume[c] : 0.0; });
@@ -217,6 +208,7 @@ FractureState FractureRun::initial_state() const {
   state.interfaces = parts_->staggered.faces().virgin_histories();
   state.boundary_force.assign(parts_->mesh.n_faces() - parts_->mesh.n_interior_faces(), Vector::Zero());
   state.heat = parts_->heat.start(parts_->loading.duration);
+  state.fatigue = parts_->staggered.fatigue().virgin();
   return state;
 }
 
@@ -226,11 +218,19 @@ bool FractureRun::is_complete(const FractureState& state) const {
 
 StepReport FractureRun::report_of(const FractureState& start) {
   StepReport report = parts_->report(start, {}, 0.0);
-  report.energy.fracture = parts_->staggered.damage_equation().renewed_fracture_energy(start.damage);
+  report.energy.fracture = parts_->staggered.renewed_surface_energy(start);
   return report;
 }
 
 StepReport FractureRun::step(FractureState& state, const IterationWatch& watch) {
+  const FatigueCells& fatigue = parts_->staggered.fatigue();
+  if (const double n = fatigue.cycles_to_jump(state, next_frame(parts_->loading, state.load)); n > 0.0) {
+    FractureState beyond = state;
+    fatigue.jump(n, beyond);
+    StepReport report = step(beyond, watch);
+    state = std::move(beyond);
+    return report;
+  }
   std::vector<std::string> remarks;
   double planned = state.increment;
   for (;;) {
@@ -266,13 +266,14 @@ OutputFields FractureRun::output(const FractureState& state) {
                       .gradient = mechanics.gradient,
                       .energy_density = density,
                       .driving_energy = state.driving_energy,
-                      .fracture_energy_density = staggered.damage_equation().fracture_energy_density(state.damage),
+                      .fracture_energy_density = staggered.surface_energy_density(state),
                       .traction = staggered.momentum().balance().tractions(state.displacement)};
   if (model().is_finite_strain()) parts_->show_finite_strain(mechanics, state, fields);
   if (parts_->unknowns.plane_stress) fields.plane_stress_normal = parts_->unknowns.plane_normal;
   fields.interfaces = staggered.faces().output(staggered.momentum().balance(), state);
   fields.history = staggered.stiffness().materials().output(state.histories);
   parts_->heat.show(state.heat, fields.history);
+  staggered.fatigue().show(state.fatigue, fields.history);
   return fields;
 }
 

@@ -17,6 +17,13 @@ double dissipation_of(const LoadingSettings& loading, double increment) {
 
 }  // namespace
 
+double next_frame(const LoadingSettings& loading, double load) {
+  double frame = loading.end;
+  for (const double stop : loading.stops)
+    if (stop > load + load_rounding) frame = std::min(frame, stop);
+  return frame;
+}
+
 double next_increment(const LoadingSettings& loading, const StaggeredSettings& settings, double increment,
                       const StepOutcome& outcome) {
   const double grown = growth * increment;

@@ -9,6 +9,9 @@ namespace pfdm {
 constexpr double increment_cut = 0.5;    ///< factor of an increment that is tried again
 constexpr double load_rounding = 1e-12;  ///< of the load parameter
 
+/// The next load at which a frame is written, or the end.
+double next_frame(const LoadingSettings& loading, double load);
+
 /// The increment of the load after a step of this one that converged.
 double next_increment(const LoadingSettings& loading, const StaggeredSettings& settings, double increment,
                       const StepOutcome& outcome);

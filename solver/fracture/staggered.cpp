@@ -28,6 +28,7 @@ Staggered::Staggered(const Mesh& mesh, const FractureModel& model, const Unknown
       stiffness_(mesh, model),
       faces_(mesh, model, unknowns),
       damage_(mesh, model, unknowns.plane_normal),
+      fatigue_(mesh, model),
       way_(stiffness_.descends() ? Relaxation::Way::momentum : Relaxation::Way::secant),
       has_newton_(way_ == Relaxation::Way::momentum && !stiffness_.depends_on_strain() && !faces_.any() &&
                   !model.has_eigenstrain() && CoupledNewton::suits(mesh, unknowns)),
@@ -42,6 +43,7 @@ StepOutcome Staggered::solve_step(const FractureState& start, FractureState& sta
   telling_ = {.watch = watch, .last = {.step = state.step, .load = state.load}};
   momentum_.start_afresh();  // as a restarted run does
   stiffness_.start_from(start, 0.0);
+  set_toughness(start);
   const StrengthDrive strength_before = strength_drive_of(start);
   const FreeStrained strained_before = free_strained(start);
   stiffness_.start_from(start, limits.duration);
@@ -72,7 +74,42 @@ StepOutcome Staggered::solve_step(const FractureState& start, FractureState& sta
       strength_dissipation(mesh_, model_, strength_before, strength_, start.damage, state.damage);
   outcome.energy.plastic_dissipation = stiffness_.plastic_dissipation(start, state);
   outcome.energy.eigenstrain_work = eigenstrain_work(strained_before, free_strained(state));
+  accumulate_fatigue(state);
   return outcome;
+}
+
+void Staggered::set_toughness(const FractureState& state) {
+  if (fatigue_.any()) damage_.set_toughness_factor(fatigue_.factors(state.fatigue), state.damage);
+}
+
+// The fall of the toughness takes surface energy from the damage that is there; it has been dissipated.
+void Staggered::accumulate_fatigue(FractureState& state) {
+  if (!fatigue_.any()) return;
+  fatigue_.accumulate(psi_plus_, damage_.stiffness_damage().of(state.damage), state.fatigue);
+  if (fatigue_.factors(state.fatigue) == damage_.toughness_factor()) return;
+  damage_.renewed_fracture_energy(state.damage);
+  const CellField<double> before = damage_.fracture_energy_density(state.damage);
+  set_toughness(state);
+  const CellField<double> after = damage_.fracture_energy_density(state.damage);
+  parallel_for(mesh_.n_cells(), [&](Index c) { state.fatigue.spent[c] += before[c] - after[c]; });
+}
+
+double Staggered::surface_energy(const FractureState& state) {
+  set_toughness(state);
+  return damage_.fracture_energy(state.damage) + fatigue_.spent_energy(state.fatigue);
+}
+
+double Staggered::renewed_surface_energy(const FractureState& state) {
+  set_toughness(state);
+  return damage_.renewed_fracture_energy(state.damage) + fatigue_.spent_energy(state.fatigue);
+}
+
+CellField<double> Staggered::surface_energy_density(const FractureState& state) {
+  set_toughness(state);
+  CellField<double> density = damage_.fracture_energy_density(state.damage);
+  if (fatigue_.any())
+    for (Index c = 0; c < mesh_.n_cells(); ++c) density[c] += state.fatigue.spent[c];
+  return density;
 }
 
 bool Staggered::has_reduced_energy() const {

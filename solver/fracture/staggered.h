@@ -5,6 +5,7 @@
 #include "solver/fracture/cells/cell_stiffness.h"
 #include "solver/fracture/cells/strength_drive.h"
 #include "solver/fracture/damage/damage_equation.h"
+#include "solver/fracture/damage/fatigue_cells.h"
 #include "solver/fracture/damage/residual_stiffness.h"
 #include "solver/fracture/equilibrium/cohesive_newton.h"
 #include "solver/fracture/equilibrium/coupled_newton.h"
@@ -83,7 +84,13 @@ class Staggered {
   CellStiffness& stiffness() { return stiffness_; }
   const CellStiffness& stiffness() const { return stiffness_; }
   const CohesiveFaces& faces() const { return faces_; }
+  const FatigueCells& fatigue() const { return fatigue_; }
   StageClock& clock() { return clock_; }
+  /// Surface energy of a state [J], all that f Gc dgamma has dissipated, and per volume of the cells [J/m^3]; with the
+  /// deferred flux of the last solution, or `renewed` with that of the state's damage.
+  double surface_energy(const FractureState& state);
+  double renewed_surface_energy(const FractureState& state);
+  CellField<double> surface_energy_density(const FractureState& state);
   /// Work of the boundary forces and of the body forces between two states [J], by the trapezoidal rule, at the load
   /// `t`.
   double work(const FractureState& from, double t, const std::vector<Vector>& force,
@@ -120,6 +127,10 @@ class Staggered {
     double residual = 0.0;    // the part of it that the residual stiffness has [J]
     double unsettled = 0.0;   // error of it by stiffnesses that have not settled [J]
   };
+  /// Gives the damage equation the toughness that fatigue has left in a state.
+  void set_toughness(const FractureState& state);
+  /// Fatigue of the step that ends with this state in equilibrium.
+  void accumulate_fatigue(FractureState& state);
   /// Updates the driving energy from the equilibrium. With `settles` the stiffness may follow the strain.
   Energies update_driving_energy(const FractureState& start, FractureState& state, bool settles);
   double potential_of_loads(const FractureState& state) const;  // elastic foundations included [J]
@@ -153,6 +164,7 @@ class Staggered {
   CellStiffness stiffness_;
   CohesiveFaces faces_;
   DamageEquation damage_;
+  FatigueCells fatigue_;
   Relaxation::Way way_;
   bool has_newton_;  // the response to which is smooth enough for it
   StageClock clock_;

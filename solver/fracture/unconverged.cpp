@@ -68,6 +68,16 @@ std::string long_step_words(const IterationReport& report, double seconds, const
       report.step, report.load, seconds, report.iteration, held_up);
 }
 
+std::string torn_words(double held, double load, const LoadingSettings& loading, bool is_finite_strain) {
+  return fmt::format(
+      "the body breaks apart between the loads {:.6g} and {:.6g}: beyond, only the residual stiffness of broken "
+      "cells carries its tractions. {}; a smaller loading.maximum_increment locates the load more exactly",
+      held, load,
+      loading.controls_dissipation() ? "No intact ligament carries load any more"
+      : is_finite_strain             ? "Prescribe displacements instead"
+                         : "Prescribe displacements instead, or use dissipation control (loading.maximum_dissipation)");
+}
+
 Remedies remedies_of(const Mesh& mesh, const FractureModel& model, const Unknowns& unknowns,
                      const LoadingSettings& loading, const std::vector<Vector>& tractions) {
   Remedies may;

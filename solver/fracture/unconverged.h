@@ -25,6 +25,9 @@ std::string what_is_unbalanced(const Mesh& mesh, const Unknowns& unknowns, const
 /// How far a step is after `seconds`, with the words on what holds it up.
 std::string long_step_words(const IterationReport& report, double seconds, const std::string& held_up);
 
+/// The body breaks apart between the loads `held`, with equilibrium, and `load`; and what may help.
+std::string torn_words(double held, double load, const LoadingSettings& loading, bool is_finite_strain);
+
 /// Remedies that the case allows, to be tried where the smallest increment does not converge.
 struct Remedies {
   bool viscosity = false;

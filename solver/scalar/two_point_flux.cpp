@@ -106,22 +106,37 @@ bool TwoPointFlux::is_cut(Index face) const {
   return (medium_.cut.size() > 0 && medium_.cut[face] != 0) || std::isinf(resistance_of(face));
 }
 
+double TwoPointFlux::link_coefficient(Index face) const {
+  const Index P = mesh_.owner[face], N = mesh_.neighbour[face];
+  const double area = mesh_.face_area[face].norm();
+  const Vector n = mesh_.face_area[face] / area;
+  const double h_P = std::abs((mesh_.face_centre[face] - point_of(P)).dot(n));
+  const double h_N = std::abs((mesh_.face_centre[face] - point_of(N)).dot(n));
+  return area / (h_P / conductance(P) + h_N / conductance(N) + resistance_of(face));
+}
+
+void TwoPointFlux::scale(CellField<double> factor) {
+  factor_ = std::move(factor);
+  for (Link& link : links_) link.coefficient = link_coefficient(link.face);
+  coupling_ = coupling_of(mesh_, links_);
+  exchange_coefficient_.clear();
+  std::fill(exchanged_.begin(), exchanged_.end(), 0.0);
+  std::fill(deferred_.begin(), deferred_.end(), 0.0);
+  build_exchanges();
+}
+
 void TwoPointFlux::build_links() {
   for (Exchange& exchange : medium_.exchanges) exchange.corrected = exchange.corrected && is_oblique(exchange);
   const CellField<double>& k = medium_.conductance;
   for (Index f = 0; f < mesh_.n_interior_faces(); ++f) {
     const Index P = mesh_.owner[f], N = mesh_.neighbour[f];
     if (!(k[P] > 0.0 && k[N] > 0.0) || is_cut(f)) continue;
-    const double area = mesh_.face_area[f].norm();
-    const Vector n = mesh_.face_area[f] / area;
-    const double h_P = std::abs((mesh_.face_centre[f] - point_of(P)).dot(n));
-    const double h_N = std::abs((mesh_.face_centre[f] - point_of(N)).dot(n));
     const Vector centre_line = (point_of(N) - point_of(P)).normalized();
     links_.push_back({.face = f,
                       .P = P,
                       .N = N,
-                      .coefficient = area / (h_P / k[P] + h_N / k[N] + resistance_of(f)),
-                      .corrected = (centre_line - n).norm() > orthogonal});
+                      .coefficient = link_coefficient(f),
+                      .corrected = (centre_line - unit_normal(mesh_, f)).norm() > orthogonal});
   }
 }
 
@@ -136,7 +151,7 @@ void TwoPointFlux::build_exchanges() {
     const Index c = exchange.cell;
     const Vector n = unit_normal(mesh_, exchange.face);
     const double h = std::abs((mesh_.face_centre[exchange.face] - point_of(c)).dot(n));
-    const double resistance = h / medium_.conductance[c] + 1.0 / exchange.coefficient;
+    const double resistance = h / conductance(c) + 1.0 / exchange.coefficient;
     const double coefficient = mesh_.face_area[exchange.face].norm() / resistance;
     exchange_coefficient_.push_back(coefficient);
     exchanged_[c] += coefficient;

@@ -36,6 +36,10 @@ class TwoPointFlux {
   };
   TwoPointFlux(const Mesh& mesh, Medium medium);
 
+  /// Multiplies the conductances of the medium by a positive factor for each cell, from now on. Gradients are those of
+  /// the medium: where factors vary u has no kink. The deferred correction has to be renewed.
+  void scale(CellField<double> factor);
+
   /// Renews the deferred correction with the gradients of u.
   void renew_correction(const CellField<double>& u);
 
@@ -63,6 +67,10 @@ class TwoPointFlux {
  private:
   void build_links();
   void build_exchanges();
+  double conductance(Index cell) const {
+    return factor_.size() > 0 ? factor_[cell] * medium_.conductance[cell] : medium_.conductance[cell];
+  }
+  double link_coefficient(Index face) const;
   bool is_oblique(const Exchange& exchange) const;
   double resistance_of(Index face) const { return medium_.resistance.size() > 0 ? medium_.resistance[face] : 0.0; }
   bool is_cut(Index face) const;
@@ -73,6 +81,7 @@ class TwoPointFlux {
 
   const Mesh& mesh_;
   Medium medium_;
+  CellField<double> factor_;  // of the conductances; empty: 1
   std::vector<Link> links_;
   std::vector<double> exchange_coefficient_;  // of each exchange: of u_cell - value, times the area
   CellField<double> exchanged_;

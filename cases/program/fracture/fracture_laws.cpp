@@ -8,6 +8,7 @@
 #include "physics/damage/crack_geometry.h"
 #include "physics/damage/degradation.h"
 #include "physics/damage/energy_split.h"
+#include "physics/damage/fatigue.h"
 #include "physics/damage/softening_law.h"
 #include "physics/interfaces/interface_rate.h"
 #include "physics/interfaces/traction_separation.h"
@@ -25,6 +26,7 @@ std::vector<LawTable> fracture_laws() {
           law_table("degradation functions ([fracture] degradation)", degradations()),
           law_table("softening laws of the rational degradation ([fracture] softening)", softening_laws()),
           law_table("energy splits ([fracture] split)", energy_splits()),
+          law_table("fatigue laws ([materials.NAME] fatigue)", fatigue_laws()),
           law_table("laws of cohesive interfaces ([[interface]] law)", interface_laws()),
           law_table("their mixed mode ([[interface]] mixed_mode)", mixed_modes()),
           law_table("their dependence on the rate ([[interface]] rate)", interface_rate_laws()),

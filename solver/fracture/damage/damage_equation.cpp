@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace pfdm {
 namespace {
@@ -80,7 +81,9 @@ DamageEquation::DamageEquation(const Mesh& mesh, const FractureModel& model, con
     : mesh_(mesh),
       model_(model),
       damageable_(damageable_cells(mesh, model)),
-      density_(energy_density(mesh, model)),
+      sound_density_(energy_density(mesh, model)),
+      toughness_factor_(mesh.n_cells(), 1.0),
+      density_(sound_density_),
       flux_(mesh, medium_of(mesh, model, plane_normal)),
       stiffness_damage_(mesh, model, plane_normal) {}
 
@@ -151,6 +154,14 @@ double DamageEquation::imbalance(Index cell, const CellField<double>& d, double 
 
 double DamageEquation::diagonal(Index cell, double d, double psi_plus) const {
   return flux_.diagonal(cell) + local_curvature(cell, d, psi_plus);
+}
+
+void DamageEquation::set_toughness_factor(CellField<double> factor, const CellField<double>& d) {
+  if (factor == toughness_factor_) return;
+  toughness_factor_ = std::move(factor);
+  for (Index c = 0; c < mesh_.n_cells(); ++c) density_[c] = toughness_factor_[c] * sound_density_[c];
+  flux_.scale(toughness_factor_);
+  flux_.renew_correction(d);
 }
 
 void DamageEquation::resist_change(double resistance, const CellField<double>& from) {

@@ -45,6 +45,10 @@ class DamageEquation {
   bool softens(Index cell, double d, double psi_plus) const;
   /// Viscous resistance to changes of the damage from `from` [J/m^3], eta over the time step, from now on.
   void resist_change(double resistance, const CellField<double>& from);
+  /// Factor f of the toughness of each cell [-] (physics/damage/fatigue.h), from now on; 1 before. If it is another
+  /// than the present one the deferred flux becomes that of d.
+  void set_toughness_factor(CellField<double> factor, const CellField<double>& d);
+  const CellField<double>& toughness_factor() const { return toughness_factor_; }
   /// External driving force c [J/m^3], from now on; empty: none.
   void set_driving_force(CellField<double> force) { force_ = std::move(force); }
   /// Energy that the resistance dissipates up to d [J]: int eta (d - d_n)^2/dt dV.
@@ -80,8 +84,10 @@ class DamageEquation {
   const Mesh& mesh_;
   const FractureModel& model_;
   CellField<char> damageable_;
-  CellField<double> density_;  // Gc/(c0 ell) [J/m^3]
-  TwoPointFlux flux_;          // of the conductance 2 Gc ell/c0 [J/m]
+  CellField<double> sound_density_;     // Gc/(c0 ell) [J/m^3]
+  CellField<double> toughness_factor_;  // f [-]
+  CellField<double> density_;           // f Gc/(c0 ell) [J/m^3]
+  TwoPointFlux flux_;                   // of the conductance 2 Gc ell/c0 [J/m]
   StiffnessDamage stiffness_damage_;
   // The term in psi_plus, linearised about `from`: its slope there, diagonal for its derivative, and derivative by the
   // means of d [J]; empty where it is each cell's own.

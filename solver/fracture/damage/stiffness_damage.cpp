@@ -14,25 +14,25 @@ constexpr double longest = 1.5;     // reach of a mean over that across
 constexpr double row_share = 0.85;  // of what the mean of a row of d = 1 has below 1: a growing crack costs Gc
 constexpr double sharpness = 2.0;
 constexpr int largest_power = 64;
-constexpr int n_nodes = 64;  // of the table of a profile, up to one ell
+constexpr int n_table = 64;  // of the table of a profile, up to one ell
 
-// d at the distances i ell/n_nodes from a broken row: ds = ell dd/sqrt(alpha).
-std::array<double, n_nodes + 1> profile(const CrackGeometry& crack) {
+// d at the distances i ell/n_table from a broken row: ds = ell dd/sqrt(alpha).
+std::array<double, n_table + 1> profile(const CrackGeometry& crack) {
   constexpr int n = 20000;
-  std::array<double, n_nodes + 1> d{};
+  std::array<double, n_table + 1> d{};
   d[0] = 1.0;
   double s = 0.0;
   int next = 1;
-  for (int i = 0; i < n && next <= n_nodes; ++i) {
+  for (int i = 0; i < n && next <= n_table; ++i) {
     s += 1.0 / (n * std::sqrt(crack.alpha(1.0 - (i + 0.5) / n)));
-    for (; next <= n_nodes && s * n_nodes >= next; ++next) d[next] = 1.0 - (i + 1.0) / n;
+    for (; next <= n_table && s * n_table >= next; ++next) d[next] = 1.0 - (i + 1.0) / n;
   }
   return d;
 }
 
-double at_distance(const std::array<double, n_nodes + 1>& d, double s) {
-  const double place = std::clamp(s, 0.0, 1.0) * n_nodes;
-  const auto below = static_cast<std::size_t>(std::min(place, n_nodes - 1.0));
+double at_distance(const std::array<double, n_table + 1>& d, double s) {
+  const double place = std::clamp(s, 0.0, 1.0) * n_table;
+  const auto below = static_cast<std::size_t>(std::min(place, n_table - 1.0));
   const double part = place - static_cast<double>(below);
   return (1.0 - part) * d[below] + part * d[below + 1];
 }
@@ -94,7 +94,7 @@ StiffnessDamage::StiffnessDamage(const Mesh& mesh, const FractureModel& model, c
   if (model.stiffness_by == StiffnessBy::cell) return;
   laws_ = CellField<Law>(mesh.n_cells());
   const VertexMeans all(mesh, cells_between(mesh, model));
-  const std::array<double, n_nodes + 1> row = profile(*model.crack);
+  const std::array<double, n_table + 1> row = profile(*model.crack);
   std::vector<Index> cells;
   for (std::size_t i = 0; i < all.cells().size(); ++i) {
     const Index c = all.cells()[i];

@@ -5,9 +5,11 @@
 #include "physics/damage/crack_geometry.h"
 #include "physics/damage/degradation.h"
 #include "physics/damage/energy_split.h"
+#include "physics/damage/fatigue.h"
 #include "physics/interfaces/interface_law.h"
 #include "physics/materials/material.h"
 #include "physics/materials/strength_model.h"
+#include "solver/fracture/model/fatigue_state.h"
 #include "solver/heat/heat_model.h"
 #include "solver/momentum/body/boundary_condition.h"
 #include "solver/momentum/body/unknowns.h"
@@ -35,6 +37,7 @@ struct RegionModel {
   EnergySplit split{};        ///< if none is chosen, the model's
   Degradation degradation{};  ///< if none is chosen, the model's
   StrengthModel strength{};   ///< none is chosen: the energy alone drives damage
+  Fatigue fatigue{};          ///< none is chosen: cycles of load leave the toughness as it is
   /// The undamaged material, with the same elasticity; null: linear elastic.
   std::shared_ptr<const Material> material{};
 
@@ -97,6 +100,7 @@ struct FractureModel {
   BodyLoads loads{};
   std::vector<CohesiveSurface> interfaces{};  ///< no face in two of them
   std::optional<HeatModel> heat{};            ///< none: what is dissipated warms nothing
+  FatigueCycles fatigue_cycles{};             ///< of the load, for jumps over them
   /// Least damage at load 0, between 0 and 1 [-]: the damage has the profile of least surface energy. Empty: none.
   CellField<double> initial_damage{};
 

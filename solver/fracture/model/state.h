@@ -5,6 +5,7 @@
 #include "physics/interfaces/interface_law.h"
 #include "solver/fracture/model/cell_histories.h"
 #include "solver/fracture/model/energy_account.h"
+#include "solver/fracture/model/fatigue_state.h"
 #include "solver/heat/heat_state.h"
 #include "solver/momentum/body/box_means.h"
 
@@ -28,7 +29,8 @@ struct FractureState {
   std::vector<InterfaceHistory> interfaces;  ///< of the cohesive faces, one surface after the other
   std::vector<Vector> boundary_force;        ///< on each boundary face [N], in the mesh's face order
   EnergyAccount energy;
-  HeatState heat{};  ///< without heat empty
+  HeatState heat{};        ///< without heat empty
+  FatigueState fatigue{};  ///< without fatigue empty
 };
 
 /// Report on a body that heat warms.
@@ -48,8 +50,9 @@ struct StepReport {
   std::optional<BoxMeans> means;      ///< of a box that moves by its mean strain
   std::vector<double> debonded_area;  ///< of each cohesive surface: where it has dissipated nine tenths or more [m^2]
   std::optional<HeatReport> heat;     ///< of a body that heat warms
-  double max_damage = 0.0;            ///< [-]
-  double damaged_volume = 0.0;        ///< volume with d > 0.5 [m^3]
+  std::optional<FatigueReport> fatigue;  ///< of a body with fatigue
+  double max_damage = 0.0;               ///< [-]
+  double damaged_volume = 0.0;           ///< volume with d > 0.5 [m^3]
   Index staggered_iterations = 0;
   Index krylov_iterations = 0;
   double increment = 0.0;            ///< of the load parameter

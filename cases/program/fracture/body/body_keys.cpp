@@ -6,6 +6,7 @@
 #include "physics/damage/crack_geometry.h"
 #include "physics/damage/degradation.h"
 #include "physics/damage/energy_split.h"
+#include "physics/damage/fatigue.h"
 #include "physics/damage/softening_law.h"
 #include "physics/materials/strength_model.h"
 
@@ -15,6 +16,7 @@ namespace {
 constexpr Range above_zero_below_one{0.0, 1.0, true, "above 0 and below 1"};
 constexpr Range below_half{0.0, 0.5, false, "between 0 and 0.5"};
 constexpr Dimension force_per_volume{"force per volume", "N/m^3", "20 kN/m^3"};
+constexpr Dimension energy_per_volume{"energy per volume", "J/m^3", "50 kJ/m^3"};
 constexpr Dimension difference_of_temperature{"temperature", "K", "20 K"};
 constexpr Dimension foundation_stiffness{"stiffness per area", "N/m^3", "50 MN/m^3"};
 
@@ -24,6 +26,10 @@ constexpr ParameterWords split_words[] = {
 };
 constexpr ParameterWords degradation_words[] = {
     {"s", "Negative slope of the degradation function at d = 0, small for a nearly elastic rise."},
+};
+
+constexpr ParameterWords fatigue_words[] = {
+    {"kappa", "How fast the logarithmic law falls; nothing is left from 10^(1/kappa) times the threshold on."},
 };
 
 const KeyTable& split_keys() {
@@ -40,6 +46,18 @@ const KeyTable& degradation_keys() {
       .name = "degradation",
       .sentence = "A degradation function with its parameters.",
       .keys = law_keys("degradation function", degradations(), "Name of the degradation function.", degradation_words),
+      .decided_by = "law"};
+  return table;
+}
+
+const KeyTable& fatigue_keys() {
+  using namespace keys;
+  static const KeyTable table{
+      .name = "fatigue",
+      .sentence = "A fatigue law with its threshold and its parameters.",
+      .keys = joined({law_keys("fatigue law", fatigue_laws(), "Name of the fatigue law.", fatigue_words),
+                      {{"threshold", quantity(energy_per_volume, range::positive), "",
+                        "Accumulated driving energy alpha_T up to which the toughness stays as it is."}}}),
       .decided_by = "law"};
   return table;
 }
@@ -101,6 +119,7 @@ KeyType components(const Dimension& due) {
 }  // namespace
 
 KeyType split_type() { return law_type("energy split", energy_splits(), split_keys); }
+KeyType fatigue_type() { return keys::table(fatigue_keys); }
 KeyType degradation_type() { return law_type("degradation function", degradations(), degradation_keys); }
 
 const KeyTable& fracture_model_keys() {

@@ -14,6 +14,7 @@ const KeyTable& composite_material_keys();
 const KeyTable& region_keys();  ///< [regions.NAME]
 KeyType split_type();
 KeyType degradation_type();
+KeyType fatigue_type();
 const KeyTable& fracture_model_keys();
 const KeyTable& initial_damage_keys();
 const KeyTable& boundary_keys();

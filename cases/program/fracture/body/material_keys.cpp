@@ -109,6 +109,8 @@ std::vector<Key> rows_in_common() {
         {"degradation", degradation_type(), "that of [fracture]", "Degradation function of this material alone."},
         {"softening", one_of("softening law", softening_laws()), "that of [fracture]",
          "Softening law of this material alone."},
+        {"fatigue", fatigue_type(), "none",
+         "Fatigue: how the toughness falls with the driving energy that cycles of load accumulate."},
         {"expansion", either({expansion.parts[0], expansion.parts[1], list(expansion, 3, 3)}), "0",
          "Coefficient of thermal expansion, one or three along x, y, z or the material's axes."},
         {"eigenstrain", list(strain, 3, 6), "0",
@@ -232,6 +234,7 @@ MaterialKeys read_keys(const ConfigTable& table, bool loads_from_start) {
   if (const auto value = table.find("damageable")) keys.damageable = value->boolean();
   if (const auto value = table.find("split")) keys.split = read_split(*value);
   if (const auto value = table.find("degradation")) keys.degradation = read_degradation(*value);
+  if (const auto value = table.find("fatigue")) keys.fatigue = read_fatigue(*value);
   if (const auto value = table.find("expansion")) keys.expansion = read_expansion(*value);
   if (const auto value = table.find("elasticity")) read_stiffness(table, *value, keys);
   if (const auto value = table.find("axes")) keys.axes = read_axes(*value);
@@ -258,6 +261,7 @@ MaterialKeys overridden(MaterialKeys base, const MaterialKeys& by) {
   override_by(by.split, base.split);
   override_by(by.degradation, base.degradation);
   override_by(by.softening, base.softening);
+  override_by(by.fatigue, base.fatigue);
   return base;
 }
 
@@ -269,6 +273,12 @@ EnergySplit read_split(const ConfigValue& value) {
 Degradation read_degradation(const ConfigValue& value) {
   const auto [law, p] = choose_law(value, degradations(), "degradation function");
   return {*law, p};
+}
+
+Fatigue read_fatigue(const ConfigValue& value) {
+  const ConfigTable table = value.table();
+  const auto [law, p] = law_of_table(table, fatigue_laws(), "fatigue law");
+  return {*law, table.quantity("threshold"), p};
 }
 
 }  // namespace pfdm

@@ -24,6 +24,7 @@ struct MaterialKeys {
   std::optional<bool> damageable;
   std::optional<EnergySplit> split;
   std::optional<Degradation> degradation;
+  std::optional<Fatigue> fatigue;
   std::optional<const SofteningLaw*> softening;
   std::shared_ptr<const Material> material{};
 };
@@ -44,5 +45,7 @@ inline std::optional<double> value_at(const std::optional<Parameter>& parameter,
 /// "name", or { law = "name", parameter = ... }.
 EnergySplit read_split(const ConfigValue& value);
 Degradation read_degradation(const ConfigValue& value);
+/// { law = "name", threshold = ..., parameter = ... }.
+Fatigue read_fatigue(const ConfigValue& value);
 
 }  // namespace pfdm

@@ -213,7 +213,8 @@ Materials read_materials(const ConfigTable& root, const MaterialDefaults& defaul
          .elastic_law = fmt::format("{} | {} | {}", entry.keys.young_modulus->text, entry.keys.poisson_ratio->text,
                                     fmt::ptr(entry.keys.material.get())),
          .material = entry.keys.material,
-         .split = entry.keys.split.value_or(EnergySplit())});
+         .split = entry.keys.split.value_or(EnergySplit()),
+         .tires = entry.keys.fatigue && entry.keys.damageable.value_or(true)});
   }
   return materials;
 }

@@ -5,6 +5,7 @@
 #include "cases/program/input/config/config.h"
 #include "solver/fracture/model/fracture_model.h"
 
+#include <algorithm>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -22,6 +23,7 @@ struct RegionMaterial {
   std::string elastic_law;                         ///< equal texts are equal elasticities and histories
   std::shared_ptr<const Material> material;        ///< null: linear elastic
   EnergySplit split;                               ///< of its own, if one is chosen
+  bool tires = false;                              ///< whether its toughness falls by fatigue
 };
 
 struct NamedElasticity {
@@ -36,6 +38,7 @@ struct Materials {
   bool corrects_toughness = true;    ///< of bands, for their neighbours
   std::vector<std::string> remarks;  ///< what was made of the numbers given, to be said in the log
 
+  bool tires() const { return std::ranges::any_of(by_region, &RegionMaterial::tires); }
   /// The elasticity of the material that `name` holds; throws InputError naming those there are, or if it varies.
   const IsotropicElasticity& elasticity(const ConfigValue& name) const;
 };

@@ -109,6 +109,7 @@ RegionModel region_model(const MaterialKeys& keys, const std::string& region, co
                     region));
   if (defaults.strength.law != nullptr)
     model.strength = make_strength(keys, model, region, defaults.strength, table, x);
+  model.fatigue = keys.fatigue.value_or(Fatigue());
   if (keys.degradation) model.degradation = *keys.degradation;
   if (!keys.degradation.value_or(defaults.degradation).law().needs_strength) return model;
   const SofteningLaw* const given = keys.softening.value_or(defaults.softening);

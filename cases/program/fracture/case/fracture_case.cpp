@@ -1,5 +1,6 @@
 #include "cases/program/fracture/case/fracture_case.h"
 
+#include "cases/program/fracture/case/fatigue_case.h"
 #include "cases/program/fracture/case/model_choice.h"
 #include "cases/program/fracture/case/run_keys.h"
 #include "cases/program/input/config/key_member.h"
@@ -226,6 +227,7 @@ FractureCase read_fracture_case(const ConfigTable& root, const std::filesystem::
   fracture.model.loads = read_body_loads(root);
   fracture.heat = read_heat(root, fracture.loading);
   if (fracture.heat) give_heat(fracture);
+  fracture.model.fatigue_cycles = read_fatigue_cycles(root, fracture.materials);
   for (const BoundarySettings& boundary : fracture.boundary) fracture.model.boundary.push_back(boundary.condition);
   read_output(root, fracture, mesh);
   read_columns(root, fracture);

@@ -2,6 +2,7 @@
 
 #include "cases/program/fracture/body/body_keys.h"
 #include "cases/program/fracture/body/mesh/mesh_keys.h"
+#include "cases/program/fracture/case/fatigue_case.h"
 #include "cases/program/input/config/key_member.h"
 #include "cases/program/studies/study_keys.h"
 #include "postproc/fields/energy_release_rate.h"
@@ -193,6 +194,7 @@ const KeyTable& fracture_keys() {
             {"interface", tables(interface_keys), "none", "Cohesive interfaces without thickness."},
             {"loads", keys::table(load_keys), "none", "Body loads: gravity, forces, temperature."},
             {"heat", keys::table(heat_keys), "none", "Heat of what is dissipated: conduction, cycles of load."},
+            {"fatigue", keys::table(fatigue_cycle_keys), "none", "Cycles of load, and jumps over them."},
             {"loading", keys::table(loading_keys), "defaults", "Load parameter and its increments."},
             {"solver", keys::table(solver_keys), "defaults", "Tolerances and linear solver."},
             {"output", keys::table(output_keys), "", "Curve and fields that are written."},

@@ -1,6 +1,7 @@
 #include "cases/program/fracture/outcome/fracture_files.h"
 
 #include "cases/program/fracture/outcome/energy_release_table.h"
+#include "cases/program/fracture/outcome/fatigue_results.h"
 #include "cases/program/fracture/outcome/heat_results.h"
 #include "cases/program/fracture/outcome/mean_curve.h"
 #include "cases/program/session/report_parts.h"
@@ -78,7 +79,7 @@ void remove_earlier_run(const fs::path& directory) {
   std::error_code ignored;
   for (const char* file :
        {checkpoint_file, curve_file, frames_file, energy_release_file, interfaces_file, means_file, homogenized_file,
-        load_cases_file, first_debonding_file, heat_file, heat_over_time_file, heated_file})
+        load_cases_file, first_debonding_file, heat_file, heat_over_time_file, heated_file, fatigue_file})
     fs::remove(directory / file, ignored);
   remove_columns(directory / columns_folder);
   for (const char* folder : {frames_folder, interfaces_folder})

@@ -1,5 +1,6 @@
 #include "cases/program/fracture/outcome/fracture_results.h"
 
+#include "cases/program/fracture/outcome/fatigue_results.h"
 #include "cases/program/fracture/outcome/fracture_files.h"
 #include "cases/program/fracture/outcome/heat_results.h"
 #include "cases/program/fracture/outcome/mean_curve.h"
@@ -61,6 +62,7 @@ FractureResults::Files::Files(const fs::path& folder, const FractureCase& fractu
   if (!sets.empty()) columns.emplace(folder / columns_folder, sets, fracture.cohesive.axis, last_step);
   if (const auto& tips = fracture.output.tips; !tips.empty()) energy_release.emplace(folder, tips, last_step);
   if (fracture.heat) heat.emplace(folder / heat_file, columns_of_heat(), last_step);
+  if (fracture.materials.tires()) fatigue.emplace(folder / fatigue_file, columns_of_fatigue(), last_step);
   if (fracture.box) means.emplace(folder / means_file, columns_of_means(fracture.interfaces), last_step);
 }
 
@@ -112,6 +114,7 @@ std::vector<std::string> FractureResults::step_done(const FractureState& state, 
   const bool waits = may_wait();
   if (files_->means) files_->means->append(row_of_means(report), !waits);
   if (files_->heat) files_->heat->append(row_of_heat(report, fracture_.loading.duration), !waits);
+  if (files_->fatigue) files_->fatigue->append(row_of_fatigue(report), !waits);
   if (waits) {
     waits_ = true;
     return warnings;
@@ -175,6 +178,7 @@ void FractureResults::write_what_waits(const FractureState& state) {
     files_->curve.write();
     if (files_->means) files_->means->write();
     if (files_->heat) files_->heat->write();
+    if (files_->fatigue) files_->fatigue->write();
     write_state(state);
   }
   take_place(state);

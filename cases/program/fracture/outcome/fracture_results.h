@@ -71,6 +71,7 @@ class FractureResults {
     std::optional<PvdSeries> interfaces;
     std::optional<StepTable> means;
     std::optional<StepTable> heat;
+    std::optional<StepTable> fatigue;
   };
 
   bool frame_is_due(const FractureState& state) const;

@@ -1,6 +1,7 @@
 #include "cases/program/fracture/outcome/recorded_steps.h"
 
 #include "cases/program/fracture/outcome/energy_release_table.h"
+#include "cases/program/fracture/outcome/fatigue_results.h"
 #include "cases/program/fracture/outcome/fracture_files.h"
 #include "cases/program/fracture/outcome/mean_curve.h"
 #include "postproc/files/csv_table.h"
@@ -61,6 +62,7 @@ void require_steps_up_to(const FractureState& state, const fs::path& results, co
   if (n_column_sets > 0) require_columns(results / columns_folder, n_column_sets, state.step);
   if (!fracture.output.tips.empty())
     require_table(results / energy_release_file, energy_release_columns(fracture.output.tips), state.step);
+  if (fracture.materials.tires()) require_table(results / fatigue_file, columns_of_fatigue(), state.step);
   if (fracture.box) require_table(results / means_file, columns_of_means(fracture.interfaces), state.step);
 }
 

@@ -1,0 +1,167 @@
+#include "solver/fracture/damage/fatigue_cells.h"
+
+#include "physics/error.h"
+#include "solver/parallel.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string_view>
+#include <utility>
+
+namespace pfdm {
+namespace {
+
+constexpr double part_rounding = 1e-9;  // of a part of a cycle
+
+bool tires(const RegionModel& region) { return region.damageable && region.fatigue.is_chosen(); }
+
+bool has_fatigue(const Mesh& mesh, const FractureModel& model) {
+  for (Index c = 0; c < mesh.n_cells(); ++c)
+    if (tires(model.in_cell(mesh, c))) return true;
+  return false;
+}
+
+/// How many parts of this length the load has gone through.
+double whole_parts(double load, double part) { return std::floor(load / part + part_rounding); }
+
+bool ends_cycle(double load, double cycle) {
+  return std::abs(load - cycle * whole_parts(load, cycle)) <= part_rounding * cycle;
+}
+
+}  // namespace
+
+FatigueCells::FatigueCells(const Mesh& mesh, const FractureModel& model)
+    : mesh_(mesh), model_(model), any_(has_fatigue(mesh, model)) {}
+
+FatigueState FatigueCells::virgin() const {
+  if (!any_) return {};
+  const CellField<double> zero(mesh_.n_cells(), 0.0);
+  FatigueState fatigue{.energy = zero, .active = zero, .spent = zero, .cycle_start = {}, .cycle_growth = {}};
+  if (model_.fatigue_cycles.any()) fatigue.cycle_start = zero;
+  return fatigue;
+}
+
+CellField<double> FatigueCells::factors(const FatigueState& fatigue) const {
+  CellField<double> factors(mesh_.n_cells(), 1.0);
+  parallel_for(mesh_.n_cells(), [&](Index c) {
+    if (const RegionModel& region = model_.in_cell(mesh_, c); tires(region))
+      factors[c] = region.fatigue.factor(fatigue.energy[c]);
+  });
+  return factors;
+}
+
+void FatigueCells::accumulate(const CellField<double>& psi_plus, const CellField<double>& d,
+                              FatigueState& fatigue) const {
+  parallel_for(mesh_.n_cells(), [&](Index c) {
+    const RegionModel& region = model_.in_cell(mesh_, c);
+    if (!tires(region)) return;
+    const double active = model_.degradation_of(region).g(d[c]) * psi_plus[c];
+    fatigue.energy[c] += std::max(active - fatigue.active[c], 0.0);
+    fatigue.active[c] = active;
+  });
+}
+
+double FatigueCells::spent_energy(const FatigueState& fatigue) const {
+  if (!any_) return 0.0;
+  return parallel_sum(mesh_.n_cells(), [&](Index c) { return mesh_.cell_volume[c] * fatigue.spent[c]; });
+}
+
+double FatigueCells::next_stop(double load) const {
+  const FatigueCycles& cycles = model_.fatigue_cycles;
+  if (!any_ || !cycles.any()) return std::numeric_limits<double>::infinity();
+  const double part = cycles.cycle / static_cast<double>(cycles.steps);
+  return part * (whole_parts(load, part) + 1.0);
+}
+
+void FatigueCells::end_cycle(double load, FatigueState& fatigue) const {
+  const FatigueCycles& cycles = model_.fatigue_cycles;
+  if (!any_ || !cycles.any() || !ends_cycle(load, cycles.cycle)) return;
+  fatigue.cycle_growth = CellField<double>(mesh_.n_cells(), 0.0);
+  parallel_for(mesh_.n_cells(), [&](Index c) { fatigue.cycle_growth[c] = fatigue.energy[c] - fatigue.cycle_start[c]; });
+  fatigue.cycle_start = fatigue.energy;
+  ++fatigue.computed_cycles;
+}
+
+double FatigueCells::largest_fall(const FatigueState& fatigue, double cycles) const {
+  return parallel_max(mesh_.n_cells(), [&](Index c) {
+    const RegionModel& region = model_.in_cell(mesh_, c);
+    if (!tires(region)) return 0.0;
+    const double now = fatigue.energy[c];
+    return region.fatigue.factor(now) - region.fatigue.factor(now + cycles * fatigue.cycle_growth[c]);
+  });
+}
+
+double FatigueCells::cycles_to_jump(const FractureState& state, double stop) const {
+  const FatigueCycles& cycles = model_.fatigue_cycles;
+  const FatigueState& fatigue = state.fatigue;
+  if (!any_ || !cycles.any() || !(cycles.jump_tolerance > 0.0)) return 0.0;
+  if (fatigue.computed_cycles < cycles.computed_cycles || !ends_cycle(state.load, cycles.cycle)) return 0.0;
+  const double most = whole_parts(stop - state.load, cycles.cycle) - 1.0;
+  if (!(most >= 1.0)) return 0.0;
+  if (largest_fall(fatigue, most) <= cycles.jump_tolerance) return most;
+  double allowed = 0.0, too_many = most;
+  while (too_many - allowed > 1.0) {
+    const double middle = std::floor(0.5 * (allowed + too_many));
+    (largest_fall(fatigue, middle) <= cycles.jump_tolerance ? allowed : too_many) = middle;
+  }
+  return allowed;
+}
+
+void FatigueCells::jump(double cycles, FractureState& state) const {
+  FatigueState& fatigue = state.fatigue;
+  parallel_for(mesh_.n_cells(), [&](Index c) { fatigue.energy[c] += cycles * fatigue.cycle_growth[c]; });
+  fatigue.cycle_start = fatigue.energy;
+  fatigue.computed_cycles = 0;
+  fatigue.jumped_cycles += cycles;
+  state.load += cycles * model_.fatigue_cycles.cycle;
+}
+
+FatigueReport FatigueCells::report(const FractureState& state) const {
+  const FatigueState& fatigue = state.fatigue;
+  FatigueReport report{.jumped_cycles = fatigue.jumped_cycles};
+  if (model_.fatigue_cycles.any()) report.cycles = state.load / model_.fatigue_cycles.cycle;
+  report.greatest_energy = parallel_max(mesh_.n_cells(), [&](Index c) {
+    const RegionModel& region = model_.in_cell(mesh_, c);
+    return tires(region) ? fatigue.energy[c] / region.fatigue.threshold() : 0.0;
+  });
+  const CellField<double> f = factors(fatigue);
+  report.least_factor = 1.0 - parallel_max(mesh_.n_cells(), [&](Index c) { return 1.0 - f[c]; });
+  return report;
+}
+
+void FatigueCells::show(const FatigueState& fatigue, std::vector<OutputHistory>& fields) const {
+  if (!any_) return;
+  fields.push_back({.name = "fatigue_energy", .unit = "J/m^3", .scalar = fatigue.energy});
+  fields.push_back({.name = "toughness_factor", .unit = "1", .scalar = factors(fatigue)});
+}
+
+void require_fatigue(const Mesh& mesh, const FractureModel& model, const LoadingSettings& loading) {
+  const auto refuse = [](std::string_view what, const std::string& with) {
+    throw InputError(fmt::format("{} cannot be combined with {}", what, with));
+  };
+  const bool has_cycles = model.fatigue_cycles.any();
+  if (!has_fatigue(mesh, model)) {
+    if (has_cycles) throw InputError("[fatigue] requires a damageable material with fatigue, as in fatigue = { ... }");
+    return;
+  }
+  constexpr std::string_view fatigue = "fatigue ([materials.NAME] fatigue)";
+  for (const RegionModel& region : model.regions) {
+    if (!tires(region)) continue;
+    if (region.material)
+      refuse(fatigue, fmt::format("the law \"{}\": the materials have to be linear elastic", region.material->name()));
+    if (region.strength.is_chosen())
+      refuse(fatigue, "a model of strength, whose coefficients are those of one toughness");
+  }
+  if (loading.controls_dissipation())
+    refuse(fatigue, "dissipation control (loading.maximum_dissipation): the loads of cycles are not proportional to t");
+  if (!(model.fatigue_cycles.jump_tolerance > 0.0)) return;
+  constexpr std::string_view jumps = "jumps over cycles (fatigue.jump_tolerance)";
+  if (model.heat) refuse(jumps, "heat ([heat]): they leave out what the cycles warm");
+  if (!model.interfaces.empty()) refuse(jumps, "cohesive interfaces, whose history they do not extrapolate");
+  if (model.viscosity > 0.0) refuse(jumps, "viscosity (fracture.viscosity): they leave out the time of the cycles");
+}
+
+}  // namespace pfdm
