@@ -48,6 +48,13 @@ FractureState awkward_state() {
             .cycle_transmittance = {8.0},
             .cycle_change = 0.25,
             .account = {.made = 0.1, .stored = 0.2, .lost = -0.0}};
+  s.fatigue = {.energy = CellField<double>({1e300, 0.1, -0.0}),
+               .active = CellField<double>({0.3, 1.0 / 3.0, 1e-310}),
+               .spent = CellField<double>({1.0, 2.0, 3.0}),
+               .cycle_start = CellField<double>({4.0, 5.0, 6.0}),
+               .cycle_growth = CellField<double>({7.0, 8.0, 1.0 / 7.0}),
+               .computed_cycles = 3,
+               .jumped_cycles = 1e6};
   return s;
 }
 
@@ -72,6 +79,8 @@ TEST(Checkpoint, state_comes_back_bit_for_bit) {
   EXPECT_TRUE(same_bits(r.histories.of(1)[1], std::nextafter(1.0, 0.0)));
   EXPECT_TRUE(std::signbit(r.histories.of(2)[0]));
   EXPECT_EQ(r.interfaces, s.interfaces);
+  EXPECT_EQ(r.fatigue, s.fatigue);
+  EXPECT_TRUE(std::signbit(r.fatigue.energy[2]));
   EXPECT_TRUE(std::signbit(r.interfaces[0].rubbed));
   EXPECT_EQ(r.boundary_force, s.boundary_force);
   for (const EnergyEntry& entry : energy_entries)
