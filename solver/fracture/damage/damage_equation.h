@@ -6,9 +6,10 @@
 // no flux through the boundary, d = 0 in undamageable regions. Where the stiffness has a damage of its own
 // (stiffness_damage.h), the term in psi_plus is A^T (g'(D) phi' psi_plus). It is linearised about the d that a solution
 // begins with, with a diagonal that bounds its derivative from above, so that each solution descends. With a strength
-// model Gc is delta Gc, and an external driving force c adds -g(d) c (physics/materials/strength_model.h). With a
-// viscosity eta (Ginzburg-Landau; Miehe, Welschinger, Hofacker, Int. J. Numer. Meth. Engng 83 (2010) 1273) the left
-// side has eta (d - d_n)/dt as well. Two-point fluxes, bounds by active set: two_point_flux.h, bounded_newton.h.
+// model Gc is delta Gc, and an external driving force c adds -g(d) c (physics/materials/strength_model.h). With fatigue
+// it is f Gc (physics/damage/fatigue.h). With a viscosity eta (Ginzburg-Landau; Miehe, Welschinger, Hofacker,
+// Int. J. Numer. Meth. Engng 83 (2010) 1273) the left side has eta (d - d_n)/dt as well. Two-point fluxes, bounds by
+// active set: two_point_flux.h, bounded_newton.h.
 
 #include "solver/fracture/damage/stiffness_damage.h"
 #include "solver/fracture/model/driving_law.h"
