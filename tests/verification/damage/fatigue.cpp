@@ -177,6 +177,32 @@ TEST(Fatigue, LowersTheStrengthOfACohesiveLaw) {
   EXPECT_GT(damage_at(1.0001 * std::sqrt(f) * ft), 0.0);
 }
 
+// Factors that vary from cell to cell are those of the toughness, on irregular prisms too.
+TEST(Fatigue, FactorsAreThoseOfTheToughness) {
+  const Mesh mesh = extruded_triangles(12, {0.0, 0.1});
+  FractureModel plain = elastic_model({}, {});
+  plain.crack = &crack_geometry("AT2");
+  plain.regions = {{.elasticity = from_young_poisson(1.0, 0.0), .Gc = 1.0, .ell = 0.2}};
+  FractureModel varied = plain;
+  varied.cells = CellField<RegionModel>(mesh.n_cells(), plain.regions[0]);
+  CellField<double> factor(mesh.n_cells()), psi(mesh.n_cells());
+  for (Index c = 0; c < mesh.n_cells(); ++c) {
+    const Vector& x = mesh.cell_centre[c];
+    factor[c] = varied.cells[c].Gc = 0.3 + 0.2 * x[0];
+    psi[c] = 3.0 * x[1] * x[1];
+  }
+  const CellField<double> sound(mesh.n_cells(), 0.0);
+  CellField<double> d = sound, expected = sound;
+  DamageEquation by_factor(mesh, plain, Vector::UnitZ()), by_toughness(mesh, varied, Vector::UnitZ());
+  by_factor.set_toughness_factor(factor, sound);
+  by_factor.solve(psi, sound, {.corrections = 20}, d);
+  by_toughness.solve(psi, sound, {.corrections = 20}, expected);
+  EXPECT_GT(*std::max_element(d.begin(), d.end()), 0.5);
+  for (Index c = 0; c < mesh.n_cells(); ++c) EXPECT_NEAR(d[c], expected[c], 1e-12);
+  const double energy = by_toughness.renewed_fracture_energy(expected);
+  EXPECT_NEAR(by_factor.renewed_fracture_energy(d), energy, 1e-12 * energy);
+}
+
 TEST(Fatigue, BelowItsThresholdChangesNoBit) {
   for (const std::string crack : {"AT1", "AT2"}) {
     const Plate plain{.crack = crack, .cells = 8, .weakness = 0.02, .is_monotonic = true};
