@@ -21,8 +21,7 @@ const KeyTable& fatigue_cycle_keys() {
           stored<&C::steps>("steps", whole(parts_range),
                             "Number of equal parts of a cycle at whose ends a step ends, so that it meets the peaks."),
           stored<&C::jump_tolerance>("jump_tolerance", number(fall_range),
-                                     "Jumps over cycles: largest fall of any cell's toughness factor that the "
-                                     "accumulated energy of one makes.",
+                                     "Largest fall of any cell's toughness factor f by a jump over cycles.",
                                      "none: every cycle is computed"),
           stored<&C::computed_cycles>("computed_cycles", whole(parts_range),
                                       "Least number of cycles that are computed before and between jumps."),
