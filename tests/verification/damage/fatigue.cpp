@@ -2,118 +2,17 @@
 // integrated at a point: by the scheme of the program (f of the step's start), and with small steps.
 
 #include "solver/fracture/damage/damage_equation.h"
-#include "solver/fracture/fracture_run.h"
-#include "solver/parallel.h"
-#include "tests/verification/support.h"
+#include "tests/verification/tired_plate.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace pfdm::verification::this_file {
 namespace {
 
-constexpr double E = 30e9, Gc = 100.0, ell = 5e-3, side = 10e-3, threshold = 2e3;
-constexpr double peak_strain = 3e-4;  // 0.6 of the elastic limit of AT1
-
-double strain_at(double t) {
-  const double s = std::sin(std::numbers::pi * t);
-  return peak_strain * s * s;
-}
-
-struct Row {
-  double damage = 0.0, energy = 0.0;  // d [-], alpha_bar [J/m^3]
-  double imbalance = 0.0;             // of work and energies, over the work
-  double cycles = 0.0;
-};
-
-/// A law of fatigue as it is published, with its row in the program.
-struct Law {
-  std::string name;
-  LawParameters p{};
-  double factor(double x) const {
-    if (x <= 1.0) return 1.0;
-    if (name == "asymptotic") return 4.0 / ((x + 1.0) * (x + 1.0));
-    return x < std::pow(10.0, 1.0 / p[0]) ? std::pow(1.0 - p[0] * std::log10(x), 2.0) : 0.0;
-  }
-};
-const Law asymptotic{"asymptotic", {}}, logarithmic{"logarithmic", {0.9}};
-
-/// At a point, f being that of the step's start: f Gc/(c0 ell) alpha'(d) = 2 (1 - d) psi, d never falls.
-Row integrate(const std::string& crack, const Law& law, double cycles, Index steps_per_cycle) {
-  Row row;
-  double active = 0.0;
-  const auto n = static_cast<Index>(std::lround(cycles * double(steps_per_cycle)));
-  for (Index i = 1; i <= n; ++i) {
-    const double eps = strain_at(double(i) / double(steps_per_cycle)), psi = 0.5 * E * eps * eps;
-    const double tough = law.factor(row.energy / threshold) * Gc / ell;
-    double d = 0.0;
-    if (psi > 0.0) d = crack == "AT1" ? 1.0 - 3.0 / 16.0 * tough / psi : 2.0 * psi / (2.0 * psi + tough);
-    row.damage = std::clamp(d, row.damage, 1.0);
-    const double now = (1.0 - row.damage) * (1.0 - row.damage) * psi;
-    row.energy += std::max(now - active, 0.0);
-    active = now;
-  }
-  return row;
-}
-
-struct Plate {
-  std::string crack = "AT1";
-  std::optional<Law> law{};
-  FatigueCycles cycles{};
-  double alpha_T = threshold;
-  Index cells = 1;
-  double weakness = 0.0;  // of the toughness of the cells of one half
-  bool is_monotonic = false;
-};
-
-FractureModel model_of(const Plate& plate, const Mesh& mesh) {
-  FractureModel model =
-      elastic_model({}, {symmetry_on("xmin"), symmetry_on("ymin"), plane_on("zmin"), plane_on("zmax")});
-  model.crack = &crack_geometry(plate.crack);
-  model.regions = {{.elasticity = from_young_poisson(E, 0.0), .Gc = Gc, .ell = ell}};
-  if (plate.law) model.regions[0].fatigue = Fatigue(fatigue_law(plate.law->name), plate.alpha_T, plate.law->p);
-  model.fatigue_cycles = plate.cycles;
-  model.residual_stiffness = 1e-12;
-  model.boundary.push_back(moved("xmax", {true, false, false}, [&plate](const Vector&, double t) {
-    return Vector((plate.is_monotonic ? 3.0 * peak_strain * t : strain_at(t)) * side, 0.0, 0.0);
-  }));
-  if (plate.weakness == 0.0) return model;
-  model.cells = CellField<RegionModel>(mesh.n_cells(), model.regions[0]);
-  for (Index c = 0; c < mesh.n_cells(); ++c)
-    if (mesh.cell_centre[c][0] > 0.5 * side) model.cells[c].Gc *= 1.0 - plate.weakness;
-  return model;
-}
-
-struct Outcome {
-  FractureState state;
-  std::vector<Row> rows;
-  std::vector<EnergyAccount> accounts;
-};
-
-Outcome stretch(const Plate& plate, double cycles, Index steps_per_cycle, double tolerance = 1e-10) {
-  const Index n = plate.cells;
-  const Mesh mesh = make_box_hexes(
-      {.axes = {{{{side, n, 1.0}}, {{side, n, 1.0}}, {{side / double(n), 1, 1.0}}}}, .regions = {}, .slits = {}});
-  const double increment = 1.0 / double(steps_per_cycle);
-  FractureRun run(mesh, model_of(plate, mesh),
-                  {.damage_tolerance = tolerance, .energy_tolerance = tolerance, .maximum_iterations = 5000},
-                  {.end = cycles, .initial_increment = increment, .maximum_increment = increment, .stops = {}});
-  Outcome outcome;
-  outcome.state = run_to_end(run, [&](const FractureState& state, const StepReport& report) {
-    if (report.step == 0) return;
-    for (const std::string& remark : report.remarks) EXPECT_EQ(remark.find("converge"), remark.npos) << remark;
-    const EnergyAccount& e = report.energy;
-    outcome.accounts.push_back(e);
-    outcome.rows.push_back({.damage = report.max_damage,
-                            .energy = plate.law ? state.fatigue.energy[0] : 0.0,
-                            .imbalance = (e.external_work - e.elastic - e.fracture) / e.external_work,
-                            .cycles = state.load});
-  });
-  return outcome;
-}
+using namespace tired;
 
 // The program does at a cell what the equations say, step by step.
 TEST(Fatigue, OfACellIsThatOfThePoint) {
@@ -135,6 +34,22 @@ TEST(Fatigue, OfACellIsThatOfThePoint) {
       EXPECT_LT(of_damage, 1e-6);
       EXPECT_LT(of_energy, 1e-6);
     }
+}
+
+// With a history of the driving energy damage also grows while the load falls, as f does; alpha_bar is that of psi_plus
+// itself.
+TEST(Fatigue, OfACellWithAHistoryIsThatOfThePoint) {
+  double of_damage = 0.0, of_energy = 0.0;
+  const Outcome outcome = stretch({.crack = "AT2", .law = asymptotic, .history = true}, 6.0, 8);
+  for (const Row& row : outcome.rows) {
+    const Row exact = integrate("AT2", asymptotic, row.cycles, 8, true);
+    of_damage = std::max(of_damage, std::abs(row.damage - exact.damage));
+    of_energy = std::max(of_energy, std::abs(row.energy - exact.energy) / threshold);
+  }
+  report_row("AT2", {{"damage", outcome.rows.back().damage}, {"error of d", of_damage}, {"of alpha_bar", of_energy}});
+  EXPECT_GT(outcome.rows.back().damage, integrate("AT2", asymptotic, 6.0, 8).damage + 1e-3);
+  EXPECT_LT(of_damage, 1e-6);
+  EXPECT_LT(of_energy, 1e-6);
 }
 
 // f is that of the step's start: a quarter of the step, a quarter of the error. Where a step crosses the threshold or
@@ -236,58 +151,6 @@ TEST(Fatigue, AccountsForItsEnergy) {
     EXPECT_LT(errors[0], 2e-3);
     EXPECT_LT(errors[2], errors[0] / 8.0);
   }
-}
-
-// While no damage grows alpha_bar is the same as without jumps.
-TEST(Fatigue, JumpsAreExactWhileTheCyclesAreAlike) {
-  constexpr FatigueCycles jumping{.cycle = 1.0, .steps = 4, .jump_tolerance = 0.02};
-  const Plate computed{.law = asymptotic, .alpha_T = 2e4};
-  Plate jumped = computed;
-  jumped.cycles = jumping;
-  const Outcome a = stretch(computed, 20.0, 4), b = stretch(jumped, 20.0, 4);
-  EXPECT_EQ(a.rows.back().damage, 0.0);
-  EXPECT_EQ(b.rows.back().cycles, 20.0);
-  EXPECT_GT(b.state.fatigue.jumped_cycles, 10.0);
-  EXPECT_LT(4.0 * (20.0 - b.state.fatigue.jumped_cycles), double(b.rows.size()) + 0.5);
-  EXPECT_NEAR(b.rows.back().energy, a.rows.back().energy, 1e-9 * a.rows.back().energy);
-}
-
-// With damage that grows the result comes nearer as the tolerance falls.
-TEST(Fatigue, JumpsConvergeWithTheirTolerance) {
-  const Plate computed{.law = asymptotic, .alpha_T = 1e5};
-  const double exact = stretch(computed, 250.0, 4).rows.back().damage;
-  ASSERT_GT(exact, 0.2);
-  ASSERT_LT(exact, 0.8);
-  std::vector<double> errors, cycles;
-  for (const double tolerance : {0.04, 0.02, 0.01}) {
-    Plate jumped = computed;
-    jumped.cycles = {.cycle = 1.0, .steps = 4, .jump_tolerance = tolerance};
-    const Outcome outcome = stretch(jumped, 250.0, 4);
-    errors.push_back(std::abs(outcome.rows.back().damage - exact));
-    cycles.push_back(250.0 - outcome.state.fatigue.jumped_cycles);
-  }
-  report_row("error of d",
-             {{"0.04", errors[0]}, {"0.02", errors[1]}, {"0.01", errors[2]}, {"computed cycles", cycles[2]}});
-  EXPECT_LT(errors[2], errors[0]);
-  EXPECT_LT(errors[2], 0.01);
-  EXPECT_LT(cycles[2], 125.0);
-}
-
-TEST(Fatigue, IsTheSameOnAnyNumberOfThreads) {
-  Plate plate{.crack = "AT2", .law = asymptotic, .cells = 40, .weakness = 0.05};
-  plate.cycles = {.cycle = 1.0, .steps = 2, .jump_tolerance = 0.1, .computed_cycles = 1};
-  const auto end = [&](int threads) {
-    set_threads(threads);
-    FractureState state = stretch(plate, 6.0, 2, 1e-4).state;
-    set_threads(1);
-    return state;
-  };
-  const FractureState alone = end(1), together = end(2);
-  EXPECT_GT(alone.fatigue.jumped_cycles, 0.0);
-  EXPECT_TRUE(alone.damage == together.damage);
-  EXPECT_TRUE(alone.displacement == together.displacement);
-  EXPECT_TRUE(alone.fatigue == together.fatigue);
-  EXPECT_TRUE(alone.energy == together.energy);
 }
 
 }  // namespace
