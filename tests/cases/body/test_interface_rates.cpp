@@ -5,7 +5,9 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <string>
+#include <vector>
 
 namespace pfdm::this_file {
 namespace {
@@ -78,6 +80,36 @@ TEST(InterfaceRates, AreNotExported) {
   const std::string deck = content_of(directory.results() / "cohesive_law" / "abaqus.inp");
   EXPECT_NE(deck.find("Rate: power of the case"), std::string::npos) << deck;
   EXPECT_NE(deck.find("Maxwell branches of the case"), std::string::npos) << deck;
+}
+
+/// Of bead_rates with few faces.
+struct Debonding {
+  double stiffness, displacement;  // [N/m], [m] where the force first falls
+};
+
+Debonding debonding_of(const std::string& file, const std::string& duration) {
+  const TemporaryCase place("");
+  const std::filesystem::path path = std::filesystem::path(PFDM_CASES_DIR) / "bead_rates" / file;
+  const Outcome outcome = run({"run", path.string(), "--output", place.results().string(), "--quiet", "--set",
+                               "loading.duration=" + duration, "--set", "mesh.particles[0].subdivisions=2"});
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  const CsvTable curve = read_csv(place.results() / "force_displacement.csv");
+  const std::vector<double>&u = curve.column("displacement_m"), &force = curve.column("force_z_N");
+  std::size_t i = 1;
+  while (i + 1 < u.size() && force[i + 1] > force[i]) ++i;
+  return {force[1] / u[1], u[i]};
+}
+
+// A faster test is stiffer and debonds earlier by the binder, debonds later at the same stiffness by the interface.
+TEST(InterfaceRates, OfBeadRatesTellBinderFromInterface) {
+  const Debonding slow = debonding_of("case.toml", "100 s"), fast = debonding_of("case.toml", "10 ms");
+  EXPECT_NEAR(fast.stiffness, slow.stiffness, 1e-3 * slow.stiffness);
+  EXPECT_GT(fast.displacement, 1.5 * slow.displacement);
+  EXPECT_LT(fast.displacement, 350e-6);
+  const Debonding slow_binder = debonding_of("binder.toml", "100 s"),
+                  fast_binder = debonding_of("binder.toml", "10 ms");
+  EXPECT_GT(fast_binder.stiffness, 1.3 * slow_binder.stiffness);
+  EXPECT_LT(fast_binder.displacement, 0.9 * slow_binder.displacement);
 }
 
 }  // namespace
