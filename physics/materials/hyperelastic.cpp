@@ -77,7 +77,14 @@ void HyperelasticMaterial::choose_pressure(double shear_lambda) {
   const IsotropicElasticity at_once = instantaneous_elasticity(prony_);
   const double ratio = std::min(moderate_lambda, (at_once.lambda - least_share * at_once.bulk_modulus()) / at_once.mu);
   pressure_modulus_ = std::min(elasticity().lambda - ratio * elasticity().mu, Lambda_);
-  bulk_ratio_ = ratio + 2.0 / 3.0;
+  const double of_branches = instantaneous_shear_modulus() - elasticity().mu;
+  const double most = (pressure_modulus_ - least_share * elasticity().bulk_modulus()) / of_branches;
+  bulk_ratio_ = std::min(ratio + 2.0 / 3.0, most);
+  if (!(bulk_ratio_ > 0.0))
+    throw InputError(fmt::format(
+        "a material of the law \"{}\" with shear_branches of {} in all and a Poisson's ratio of {:.6g}: its "
+        "pressure is left with less than {:g} of the bulk modulus; a larger Poisson's ratio is required",
+        law_.name, quantity_text(of_branches, "Pa"), elasticity().poisson_ratio(), least_share));
 }
 
 // U.

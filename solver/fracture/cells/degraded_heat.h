@@ -3,6 +3,7 @@
 // falls by orders and what the undamaged material would store and dissipate rises by orders, as the crack opens: the
 // trapezoidal rule gave half of that as heat. Where changes are small both are the same to second order.
 
+#include <algorithm>
 #include <cmath>
 
 namespace pfdm {
@@ -13,11 +14,13 @@ inline double logarithmic_mean(double a, double b) {
   return std::abs(x) < 1e-4 ? std::sqrt(a * b) : (b - a) / x;
 }
 
-/// - int W dg: what damage frees of an energy W that does not drive it, g and W being exponentials of the same parameter
-/// from one state to the other.
+/// - int W dg: what damage frees of an energy W that does not drive it, g and W being exponentials of the same
+/// parameter from one state to the other. An end without energy counts as one with a millionth of the other's.
 inline double freed_energy(double g_from, double W_from, double g_to, double W_to) {
-  if (g_from == g_to) return 0.0;
-  if (!(W_from > 0.0 && W_to > 0.0)) return 0.5 * (g_from - g_to) * (W_from + W_to);
+  constexpr double least = 1e-6;
+  const double floor = least * std::max(W_from, W_to);
+  if (g_from == g_to || !(floor > 0.0)) return 0.0;
+  W_from = std::max(W_from, floor), W_to = std::max(W_to, floor);
   if (!(g_to > 0.0)) return g_from * W_from;
   return std::log(g_from / g_to) * logarithmic_mean(g_from * W_from, g_to * W_to);
 }

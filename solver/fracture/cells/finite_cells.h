@@ -43,8 +43,9 @@ struct FiniteEnergies {
   double compression = 0.0;      ///< W_c, of the moderate one, where compression does not drive the damage
   bool is_compressed = false;    ///< there, and J < 1
   double faces = 0.0, of = 1.0;  ///< energy of the faces, at the g with which the displacements were found
-  /// Shares of the energies of the faces and of the pressure that drive the damage: less than 1 where branches do not.
-  double faces_drive = 1.0, pressure_drive = 1.0;
+  /// Share of the energies of faces, and of what a pressure is lost by faster than W_m, that drives the damage: less
+  /// than 1 where branches do not.
+  double drive = 1.0;
   double moments = 0.0;  ///< of the moments of the faces, where these do not drive the damage
 };
 
@@ -65,7 +66,7 @@ class FiniteCells {
   /// Begins a step at these histories, which takes `duration` [s]; 0: holds them. Laws and energies are those of it.
   void start_from(const CellHistories& start, double duration) { histories_.start_from(start, duration); }
   /// Takes the histories of viscoelastic cells, with the stiffness factors g, to the deformation of now.
-  void advance(const CellMechanics& mechanics, const CellField<double>& g, CellHistories& to) const;
+  void advance(const CellMechanics& mechanics, const CellField<double>& g, CellHistories& to);
   /// Heat of the branches of a cell from one history to another while its factor went from g_from to g_to, with what
   /// damage frees of them without being driven by it [J].
   double dissipation(Index cell, const CellHistories& from, double g_from, const CellHistories& to, double g_to) const;
@@ -129,6 +130,7 @@ class FiniteCells {
   CellField<const FiniteSplit*> split_;              // empty at small strain
   FiniteHistories histories_;
   std::vector<Index> cells_of_own_;
+  CellField<double> free_volume_;         // J* of viscoelastic cells as they were advanced; empty: 1
   Vector across_ = Vector::Zero();        // normal of a plate in plane stress
   Vector plane_normal_ = Vector::Zero();  // of a plane mesh
 };

@@ -42,6 +42,9 @@ struct FiniteShare {
 /// pressure.
 struct FiniteShares {
   FiniteShare moderate, network, pressure;
+  /// The part of the pressure's slope, and its derivative, by which it is lost as W_m is: without what it is lost
+  /// faster.
+  FiniteShare pressure_as_moderate{};
 };
 
 /// The shares in W = g (w W_m + (1 - w) N) + w r c U, w and r being functions of g and N the network's energy. A split

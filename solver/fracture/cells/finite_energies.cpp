@@ -35,7 +35,8 @@ double FiniteCells::dissipation(Index cell, const CellHistories& from, double g_
                left_to = finite_shares(*material_[cell], g_to).moderate.value;
   const MaterialEnergy before = histories_.energy(cell, from), after = histories_.energy(cell, to);
   const double flow = degraded_dissipation(left_from, left_to, after.dissipated - before.dissipated);
-  return mesh_.cell_volume[cell] * (flow + freed_energy(left_from, before.idle, left_to, after.idle));
+  const double volume = mesh_.cell_volume[cell] * (free_volume_.size() > 0 ? free_volume_[cell] : 1.0);
+  return volume * (flow + freed_energy(left_from, before.idle, left_to, after.idle));
 }
 
 // The moments of tractions in cells without a pressure count in the account alone: the rotation of the whole body is in
@@ -51,13 +52,11 @@ FiniteEnergies FiniteCells::energies(Index cell, const CellMechanics& mechanics,
   energies.of = g;
   energies.moments = drive ? 0.0 : moments / V;
   if (!histories_.has(cell)) return energies;
-  energies.locked = histories_.energy(cell, now).locked;
-  if (energies.branches_drive) return energies;
-  // By the moduli: faces meet the branches, and the volumetric energy is lost by the shear modulus with all of them. A
-  // sheet that is torn fast is then driven as the elastic one is, at the same stretches.
-  const double mu = material_[cell]->elasticity().mu;
-  energies.faces_drive = mu / (mu + histories_.modulus(cell));
-  energies.pressure_drive = mu / material_[cell]->instantaneous_shear_modulus();
+  energies.locked = free_deformation(cell, mechanics).volume() * histories_.energy(cell, now).locked;
+  // A sheet that is torn fast is driven as the elastic one at the same stretches, and what only changes its volume as
+  // without branches.
+  const double sheared = energies.moderate + energies.branches;
+  if (!energies.branches_drive && sheared > 0.0) energies.drive = std::clamp(energies.moderate / sheared, 0.0, 1.0);
   return energies;
 }
 
@@ -88,15 +87,18 @@ DrivingAt FiniteCells::driving_energy(Index cell, const FiniteEnergies& at, doub
   const FiniteShares by = finite_shares(*material_[cell], g);
   const bool whole = keeps(cell, at);
   const FiniteShare off = whole ? FiniteShare{.value = g, .slope = 1.0} : by.moderate;
-  const double pressure = at.is_compressed ? 0.0 : at.pressure_drive * at.pressure,
-               faces = whole ? 0.0 : at.faces_drive * at.faces / at.of;
+  const double pressure = at.is_compressed ? 0.0 : at.pressure, faces = whole ? 0.0 : at.drive * at.faces / at.of;
   const double moderate = at.moderate + (at.branches_drive ? at.branches : 0.0);
+  const auto driving = [&](double whole_slope, double as_moderate) {
+    return whole_slope - (1.0 - at.drive) * (whole_slope - as_moderate);
+  };
+  const FiniteShare &of_pressure = by.pressure, &as_moderate = by.pressure_as_moderate;
   const double value = by.moderate.slope * moderate + by.network.slope * at.network - off.slope * at.compression +
-                       by.pressure.slope * pressure + faces;
+                       driving(of_pressure.slope, as_moderate.slope) * pressure + faces;
   if (value <= 0.0) return {};
   return {.value = value,
           .slope = by.moderate.curvature * moderate + by.network.curvature * at.network -
-                   off.curvature * at.compression + by.pressure.curvature * pressure};
+                   off.curvature * at.compression + driving(of_pressure.curvature, as_moderate.curvature) * pressure};
 }
 
 Tensor FiniteCells::undamaged_biot_stress(Index cell, const CellMechanics& mechanics, double g) const {

@@ -28,22 +28,25 @@ std::shared_ptr<const Material> viscous(double poisson, const std::vector<PronyB
 constexpr double pulling = 3.0;                                                         // [s]
 double stretch_at(double t) { return 1.0 + std::sin(std::numbers::pi * t / pulling); }  // to twice the length and back
 
-// Nominal stresses over mu at the times k pulling/n, by Heun's method for the viscous strains and Newton's for the
-// lateral stretch b: P_b = 0 of b - 1/b + L (J - 1) J/b + sum m (b/v_b - J^(2/3)/b).
-std::vector<double> bar_by_equation(double poisson, int n, int substeps) {
-  const double L = 2.0 * poisson / (1.0 - 2.0 * poisson);
+// The bar's equation, P_b = 0 of the lateral stretch b, with the viscous strains v of its branches:
+// P = l - 1/l + L (J - 1) J/l + sum m (l/v - J^(2/3)/l), over mu.
+struct BarEquation {
   struct Viscous {
     double along = 1.0, across = 1.0;
   };
   using All = std::vector<Viscous>;
-  const auto stress = [&](double a, double b, const All& v, bool of_a) {
+  double L;
+
+  explicit BarEquation(double poisson) : L(2.0 * poisson / (1.0 - 2.0 * poisson)) {}
+
+  double stress(double a, double b, const All& v, bool of_a) const {
     const double J = a * b * b, l = of_a ? a : b;
     double P = l - 1.0 / l + L * (J - 1.0) * J / l;
     for (std::size_t i = 0; i < branches.size(); ++i)
       P += branches[i].modulus / mu * (l / (of_a ? v[i].along : v[i].across) - std::pow(J, 2.0 / 3.0) / l);
     return P;
-  };
-  const auto lateral = [&](double a, const All& v) {
+  }
+  double lateral(double a, const All& v) const {  // by Newton's method
     double b = 1.0 / std::sqrt(a);
     for (int k = 0; k < 50; ++k) {
       constexpr double step = 1e-7;
@@ -51,8 +54,12 @@ std::vector<double> bar_by_equation(double poisson, int n, int substeps) {
       b -= stress(a, b, v, false) / slope;
     }
     return b;
-  };
-  const auto rate = [&](double t, const All& v) {
+  }
+  double nominal_stress(double t, const All& v) const {
+    const double a = stretch_at(t);
+    return stress(a, lateral(a, v), v, true);
+  }
+  All rate(double t, const All& v) const {
     const double a = stretch_at(t), b = lateral(a, v), size = std::pow(a * b * b, -2.0 / 3.0);
     All rates;
     for (std::size_t i = 0; i < v.size(); ++i) {
@@ -61,23 +68,26 @@ std::vector<double> bar_by_equation(double poisson, int n, int substeps) {
           {(size * a * a - r * v[i].along) / branches[i].time, (size * b * b - r * v[i].across) / branches[i].time});
     }
     return rates;
-  };
-  All v(branches.size());
+  }
+};
+
+BarEquation::All moved_by(const BarEquation::All& v, double dt, const BarEquation::All& rate) {
+  BarEquation::All moved = v;
+  for (std::size_t i = 0; i < v.size(); ++i)
+    moved[i].along += dt * rate[i].along, moved[i].across += dt * rate[i].across;
+  return moved;
+}
+
+// Nominal stresses over mu at the times k pulling/n, by Heun's method.
+std::vector<double> bar_by_equation(double poisson, int n, int substeps) {
+  const BarEquation bar(poisson);
+  BarEquation::All v(branches.size());
   std::vector<double> stresses{0.0};
   const double dt = pulling / (double(n) * substeps);
   for (int k = 0; k < n * substeps; ++k) {
-    const All first = rate(k * dt, v);
-    All ahead = v;
-    for (std::size_t i = 0; i < v.size(); ++i)
-      ahead[i].along += dt * first[i].along, ahead[i].across += dt * first[i].across;
-    const All second = rate((k + 1) * dt, ahead);
-    for (std::size_t i = 0; i < v.size(); ++i) {
-      v[i].along += 0.5 * dt * (first[i].along + second[i].along);
-      v[i].across += 0.5 * dt * (first[i].across + second[i].across);
-    }
-    if ((k + 1) % substeps != 0) continue;
-    const double a = stretch_at((k + 1) * dt);
-    stresses.push_back(stress(a, lateral(a, v), v, true));
+    const auto first = bar.rate(k * dt, v), second = bar.rate((k + 1) * dt, moved_by(v, dt, first));
+    v = moved_by(moved_by(v, 0.5 * dt, first), 0.5 * dt, second);
+    if ((k + 1) % substeps == 0) stresses.push_back(bar.nominal_stress((k + 1) * dt, v));
   }
   return stresses;
 }
@@ -134,8 +144,7 @@ std::vector<Pad> pads() {
           {.cells = "polyhedra", .mesh = barycentric_dual(mapped_box({3, 3, 2}, flat, BoxCells::tetrahedra))}};
 }
 
-// The elastic ones are of the same material, whose branches relax within any step.
-// Of pads that are compressed by 8 % and sheared by 30 % of their height within a second, and then held [s].
+// Pads are compressed by 8 % and sheared by 30 % of their height within a second, and then held [s].
 constexpr double moving = 1.0;
 FractureModel pad_model(const Mesh& mesh, const std::shared_ptr<const Material>& material, double duration) {
   return finite_body(mesh, material,
@@ -159,6 +168,8 @@ Vector pad_force(const Mesh& mesh, const std::shared_ptr<const Material>& materi
   return force;
 }
 
+// Between nu = 0.4 and 0.47 only the viscoelastic cells have a pressure: there the elastic pads have other errors, and
+// the relaxed ones are of the same material, whose branches relax within any step.
 TEST(ViscousRubber, PadsRelaxToTheElasticOnes) {
   constexpr double held_for = 30.0;
   for (const double poisson : {0.3, 0.46, 0.4997})
@@ -166,10 +177,17 @@ TEST(ViscousRubber, PadsRelaxToTheElasticOnes) {
       const Vector held = pad_force(pad.mesh, viscous(poisson), held_for, 1.0);
       std::vector<PronyBranch> quick = branches;
       for (PronyBranch& branch : quick) branch.time *= 1e-9;
-      const Vector due = pad_force(pad.mesh, viscous(poisson, quick), held_for, held_for);
+      const Vector slow = pad_force(pad.mesh, viscous(poisson, quick), held_for, held_for);
+      const Vector due = pad_force(pad.mesh, viscous(poisson, {}), held_for, held_for);
       report_row(fmt::format("viscous pad of {} {}, nu {}", pad.mesh.n_cells(), pad.cells, poisson),
-                 {{"shear", held.x()}, {"relaxed", due.x()}, {"pressure", held.z()}, {"relaxed", due.z()}});
-      EXPECT_LT((held - due).norm(), 1e-3 * due.norm());
+                 {{"from the elastic one", (held - due).norm() / due.norm()},
+                  {"shear", held.x()},
+                  {"elastic", due.x()},
+                  {"pressure", held.z()},
+                  {"elastic", due.z()}});
+      EXPECT_LT((held - slow).norm(), 1e-3 * due.norm());
+      const double bound = poisson == 0.46 ? 1.0 : 1e-3;
+      EXPECT_LT((held - due).norm(), bound * due.norm());
     }
 }
 
@@ -209,60 +227,6 @@ TEST(ViscousRubber, ADiscAtSmallStrainIsThatOfAPronySeries) {
                                                                      {"small strain", small.back()},
                                                                      {"largest difference", worst}});
     EXPECT_LT(worst, 0.005);
-  }
-}
-
-// --- A crack in a sheet ----------------------------------------------------------------------------------------------
-
-// Torn in a time in which nothing relaxes it is the elastic sheet at the same stretches: damage is driven by the energy
-// at rest, and the displacements are those of a sheet that is as much stiffer everywhere.
-TEST(ViscousRubber, ASheetTornFastBreaksAtTheStretchesOfTheElasticOne) {
-  constexpr double poisson = 0.4995, length = 2.0, toughness = 0.6 * mu;
-  const Mesh mesh = make_box_hexes(
-      {.axes = {{{{.length = 12.0, .n = 24}}, {{.length = 6.0, .n = 12}}, {{1.0, 1}}}}, .regions = {}, .slits = {}});
-  struct Torn {
-    std::vector<double> force, crack;
-  };
-  const auto tear = [&](const std::shared_ptr<const Material>& material, double duration) {
-    FractureModel model =
-        finite_body(mesh, material,
-                    {moved("ymin", {true, true, true}, [](const Vector&, double) -> Vector { return Vector::Zero(); }),
-                     moved("ymax", {true, true, false},
-                           [](const Vector&, double t) -> Vector { return 1.6 * t * Vector::UnitY(); }),
-                     plane_stress_on("zmin"), plane_stress_on("zmax")});
-    model.crack = &crack_geometry("AT1");
-    model.degradation = degradation("quadratic");
-    model.split = energy_split("none");
-    model.regions[0].damageable = true;
-    model.regions[0].Gc = toughness;
-    model.regions[0].ell = length;
-    model.initial_damage = CellField<double>(mesh.n_cells(), 0.0);
-    for (Index c = 0; c < mesh.n_cells(); ++c)
-      if (mesh.cell_centre[c].x() < 4.0 && std::abs(mesh.cell_centre[c].y() - 2.75) < 0.1)
-        model.initial_damage[c] = 1.0;
-    FractureRun run(mesh, model, {.damage_tolerance = 1e-5, .energy_tolerance = 1e-6},
-                    {.initial_increment = 0.1, .maximum_increment = 0.1, .duration = duration, .stops = {}});
-    Torn torn;
-    run_to_end(run, [&](const FractureState&, const StepReport& report) {
-      torn.force.push_back(report.reaction[mesh.patch_index("ymax")].y());
-      torn.crack.push_back(report.energy.fracture);
-    });
-    return torn;
-  };
-  const std::vector<PronyBranch> twice{{.modulus = 2.0 * mu, .time = 1.0}};
-  const Torn elastic = tear(make_hyperelastic("neo_hookean", {.elasticity = viscous(poisson)->elasticity()}), 1.0);
-  const Torn fast = tear(viscous(poisson, twice), 1e-6);
-  ASSERT_EQ(fast.crack.size(), elastic.crack.size());
-  const double begun = elastic.crack.front(), grown = elastic.crack.back() - begun;
-  ASSERT_GT(grown, 0.02 * toughness * 6.0);
-  for (std::size_t k = 1; k < fast.crack.size(); ++k) {
-    const double due = elastic.crack[k] - begun;
-    report_row(fmt::format("torn sheet, step {}", k), {{"force over the elastic one", fast.force[k] / elastic.force[k]},
-                                                       {"crack", (fast.crack[k] - begun) / grown},
-                                                       {"elastic", due / grown}});
-    EXPECT_NEAR(fast.crack[k] - begun, due, 0.05 * due + 1e-3 * grown);
-    if (due > 0.5 * grown) continue;  // torn: what pulls is the network of broken cells, which does not relax
-    EXPECT_NEAR(fast.force[k], 3.0 * elastic.force[k], 0.01 * fast.force[k]);
   }
 }
 
