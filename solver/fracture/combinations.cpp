@@ -255,6 +255,11 @@ void require_complete(const Mesh& mesh, const FractureModel& model) {
     if (region.damageable && !(region.Gc > 0.0 && region.ell > 0.0))
       throw InputError(
           fmt::format("region \"{}\" can be damaged but has no positive toughness and length", mesh.region_names[r]));
+    if (model.is_finite_strain() && !(region.material && region.material->is_finite_strain()))
+      throw InputError(
+          fmt::format("region \"{}\" has a material of small strain and another region one of finite strain; give all "
+                      "of them laws of finite strain (saint_venant_kirchhoff for stiff ones), or none",
+                      mesh.region_names[r]));
   }
 }
 
@@ -269,7 +274,7 @@ void require_combination(const Mesh& mesh, const FractureModel& model, const Unk
       require_history(model, *region.material, loading);
       require_relaxing(model, region);
     }
-  if (model.is_finite_strain()) require_finite(mesh, model, unknowns, loading);
+  if (model.is_finite_strain()) require_finite(model, unknowns, loading);
   if (model.has_strength()) require_strength(model);
   if (model.stiffness_by == StiffnessBy::mean) require_mean_damage(mesh, model);
   require_loads(mesh, model, unknowns, loading);

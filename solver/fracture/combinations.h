@@ -9,7 +9,7 @@
 
 namespace pfdm {
 
-/// Every region of the mesh has what the model needs of it.
+/// Every region of the mesh has what the model needs of it; all are of small strain, or all of finite strain.
 void require_complete(const Mesh& mesh, const FractureModel& model);
 
 /// Models that stiffness by the mean damage (StiffnessBy::mean) cannot be combined with; empty: none of this model's.

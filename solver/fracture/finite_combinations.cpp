@@ -71,18 +71,11 @@ void require_finite_plate(const FractureModel& m) {
 
 }  // namespace
 
-void require_finite(const Mesh& mesh, const FractureModel& m, const Unknowns& unknowns,
-                    const LoadingSettings& loading) {
+void require_finite(const FractureModel& m, const Unknowns& unknowns, const LoadingSettings& loading) {
   const auto refuse = [](std::string_view what) {
     throw InputError(fmt::format("materials of finite strain cannot be combined with {}", what));
   };
-  for (std::size_t r = 0; r < m.regions.size(); ++r) {
-    const RegionModel& region = m.regions[r];
-    if (!region.material || !region.material->is_finite_strain())
-      throw InputError(
-          fmt::format("region \"{}\" has a material of small strain and another region one of finite strain; give all "
-                      "of them laws of finite strain (saint_venant_kirchhoff for stiff ones), or none",
-                      mesh.region_names[r]));
+  for (const RegionModel& region : m.regions) {
     const std::string_view split = m.split_of(region).name();
     if (!region.damageable) continue;
     if (split != "none" && region.material->name() == "saint_venant_kirchhoff")

@@ -8,7 +8,7 @@
 namespace pfdm {
 
 /// Materials, splits, interfaces and loads of a body at finite strain: what has not been worked out is refused.
-void require_finite(const Mesh& mesh, const FractureModel& m, const Unknowns& unknowns, const LoadingSettings& loading);
+void require_finite(const FractureModel& m, const Unknowns& unknowns, const LoadingSettings& loading);
 
 /// Eigenstrains may not turn cells inside out, F* = 1 + eps* being the free deformation, nor shrink them so far that
 /// they count as turned (finite_newton.h).

@@ -2,7 +2,7 @@
 
 #include "physics/damage/degradation.h"
 #include "postproc/files/csv_table.h"
-#include "tests/cases/temporary_case.h"
+#include "tests/cases/glued_blocks.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -154,6 +154,25 @@ TEST(MaterialLaws, WhatFiniteStrainCannotBeCombinedWithIsRefused) {
     const Outcome outcome = run({"run", directory.path().string(), "--quiet"});
     EXPECT_EQ(outcome.status, 2);
     EXPECT_THAT(outcome.err, HasSubstr(message));
+  }
+}
+
+// Damageable or not: before anything asks a cell for its law of finite strain.
+TEST(MaterialLaws, SmallStrainBesideFiniteStrainIsRefused) {
+  const std::string left = "[materials.stone]\nregions = [\"left\", \"right\"]\n",
+                    rubber =
+                        "[materials.rubber]\nregions = [\"right\"]\nlaw = \"neo_hookean\"\nyoung_modulus = \"1 "
+                        "MPa\"\npoisson_ratio = 0.4\ndamageable = false\n";
+  const std::string text =
+      replaced(glued_blocks(linear_glue), left, rubber + "[materials.stone]\nregions = [\"left\"]\n");
+  const std::string whole = text.substr(0, text.find("[[interface]]"));
+  for (const std::string keys : {"damageable = false\n", "toughness = \"100 J/m^2\"\nlength = \"1 mm\"\n"}) {
+    const std::string good = "poisson_ratio = 0.0\ndamageable = false\n";
+    expect_refused(TemporaryCase(replaced(whole, good, "poisson_ratio = 0.0\n" + keys)),
+                   {.name = "mixed",
+                    .good = "",
+                    .bad = "",
+                    .message = {"region \"left\" has a material of small strain", "saint_venant_kirchhoff"}});
   }
 }
 
