@@ -40,7 +40,7 @@ StepOutcome Staggered::solve_step(const FractureState& start, FractureState& sta
                                   const IterationWatch& watch) {
   stiffness_.start_step(limits.duration);
   faces_.start_step(limits.duration);
-  telling_ = {.watch = watch, .last = {.step = state.step, .load = state.load}};
+  telling_ = {.watch = watch, .last = {.step = state.step, .load = state.load}, .after = telling_.after};
   momentum_.start_afresh();  // as a restarted run does
   stiffness_.start_from(start, 0.0);
   set_toughness(start);

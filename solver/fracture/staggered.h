@@ -104,12 +104,12 @@ class Staggered {
   struct Loop;
   /// The loop of solve_step; the energies of the outcome are not set.
   StepOutcome alternate(const FractureState& start, FractureState& state, const StepLimits& limits);
-  /// What sees the step, its last iteration, when it began, and whether it has said that it takes long.
+  /// What sees the step, its last iteration, when it began, and how long a step has to take before it says so (again).
   struct Telling {
     IterationWatch watch{};
     IterationReport last{};
     std::chrono::steady_clock::time_point began = std::chrono::steady_clock::now();
-    bool has_said = false;
+    double after = 0.0;  // [s]
   };
   /// Tells of an iteration; `words` on what holds it up are asked for where the step takes long.
   void tell(IterationReport report, const std::function<std::string()>& words);

@@ -224,8 +224,8 @@ void Staggered::tell(IterationReport report, const std::function<std::string()>&
   if (!report.in_balance) telling_.last = report;
   if (!telling_.watch) return;
   const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - telling_.began;
-  if (!telling_.has_said && taken.count() >= settings_.long_step) {
-    telling_.has_said = true;
+  if (taken.count() >= std::max(settings_.long_step, telling_.after)) {
+    telling_.after = 2.0 * taken.count();
     report.remark = long_step_words(report, taken.count(), words());
   }
   telling_.watch(report);
