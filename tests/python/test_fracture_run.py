@@ -91,7 +91,8 @@ class Steps(Folder):
                 break
         self.assertEqual(run.row, before)
         self.assertEqual(list(run), list(other))
-        self.assertEqual(set(seen[0]), {"step", "iteration", "load", "damage_change", "energy_change"})
+        self.assertEqual(set(seen[0]), {"step", "iteration", "load", "damage_change", "energy_change", "remark"})
+        self.assertEqual({at["remark"] for at in seen}, {""})
 
     def test_cannot_be_done_within_a_step(self):
         run = pfdm.FractureRun(bar())

@@ -61,10 +61,11 @@ void step(SteppedRun& run, const py::object& on_iteration) {
   const py::gil_scoped_release others_run;
   run.step([&](const IterationReport& at) {
     look_for_signals();
-    if (!is_watched || at.in_balance) return;
+    if (!is_watched || (at.in_balance && at.remark.empty())) return;
     const py::gil_scoped_acquire lock;
     on_iteration(py::dict(py::arg("step") = at.step, py::arg("iteration") = at.iteration, py::arg("load") = at.load,
-                          py::arg("damage_change") = at.damage_change, py::arg("energy_change") = at.energy_change));
+                          py::arg("damage_change") = at.damage_change, py::arg("energy_change") = at.energy_change,
+                          py::arg("remark") = at.remark));
   });
 }
 

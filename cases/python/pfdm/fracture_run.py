@@ -77,12 +77,15 @@ class FractureRun:
             raise Error("the run was closed")
         return self._opened
 
-    def step(self, on_iteration: Callable[[dict[str, float]], object] | None = None) -> Step:
+    def step(self, on_iteration: Callable[[dict[str, Any]], object] | None = None) -> Step:
         """Does one accepted load step, with increments cut back until one is, and returns its row of the curve.
 
         Args:
             on_iteration: called after each iteration, also of increments that are cut back, with a dict of "step",
-                "iteration", "load", "damage_change", "energy_change". What it raises ends the step and is raised here.
+                "iteration", "load", "damage_change", "energy_change", "remark". What it raises ends the step and is
+                raised here. The remark is a text, empty unless the step takes more than two minutes, and more than
+                twice as long as when a step of this run last had one: how far the step is, what holds it up and which
+                keys may help. It may come between iterations, with the numbers of the last one.
 
         Raises:
             InputError: the load has reached its end.
