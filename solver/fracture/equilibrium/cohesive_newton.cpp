@@ -96,7 +96,8 @@ Equilibrium solve_with_faces(const CohesiveFaces& faces, const std::vector<Inter
   momentum.set_held_forces(faces.branch_forces(before));
   const Index most = cells ? most_finite_solves : most_solves;
   for (Index k = 0; k < most; ++k) {
-    // The residual at the start of a solve is that of the true laws.
+    // The residual at the start of a solve is that of the true laws; at finite strain to the second order in what
+    // `settle` moves.
     const bool newton = way == CohesiveFaces::Way::tangent;
     if (has_rate) {
       momentum.balance().prescribe(t, u);
