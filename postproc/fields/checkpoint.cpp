@@ -105,8 +105,8 @@ void archive_state(Archive& archive, State& state) {
   auto& [rise, made, cycle, transmitted, cycle_transmittance, cycle_change, account, duration] = heat;
   each(rise, made, cycle, transmitted, cycle_transmittance, cycle_change, account.made, account.stored, account.lost,
        duration);
-  auto& [accumulated, active, spent, cycle_start, cycle_growth, computed_cycles, jumped_cycles] = fatigue;
-  each(accumulated, active, spent, cycle_start, cycle_growth, computed_cycles, jumped_cycles);
+  auto& [accumulated, active, spent, cycle_start, cycle_growth, computed_cycles, whole_cycles, jumped_cycles] = fatigue;
+  each(accumulated, active, spent, cycle_start, cycle_growth, computed_cycles, whole_cycles, jumped_cycles);
 }
 
 template <class T>

@@ -79,7 +79,7 @@ struct FractureRun::Parts {
   bool follows_faces() const { return !model.interfaces.empty() && loading.controls_dissipation(); }
 
   double next_stop(double load) const {
-    return std::min({next_frame(loading, load), heat.end_of_cycle(load), staggered.fatigue().next_stop(load)});
+    return staggered.fatigue().next_stop(load, std::min(next_frame(loading, load), heat.end_of_cycle(load)));
   }
 
   // held: the last load with equilibrium; load: one at which only the residual stiffness carries the tractions.
@@ -91,17 +91,15 @@ struct FractureRun::Parts {
     return remedies_of(mesh, model, unknowns, loading, staggered.balance().traction_forces(load));
   }
 
-  std::string words_on(const FractureState& trial, const StepOutcome& outcome) {
-    if (model.is_finite_strain())
-      return finite_stop(mesh, model, settings, staggered.momentum().balance(), trial.damage, outcome);
-    return what_changes(mesh, settings, outcome) + "; " + what_to_try(settings, outcome, remedies(trial.load));
-  }
-
   [[noreturn]] void fail_unconverged(const FractureState& trial, const StepOutcome& outcome) {
+    const std::string words =
+        model.is_finite_strain()
+            ? finite_stop(mesh, model, settings, staggered.momentum().balance(), trial.damage, outcome)
+            : what_changes(mesh, settings, outcome) + "; " + what_to_try(settings, outcome, remedies(trial.load));
     throw NoConvergence(
         fmt::format("step {} at load {:.6g} did not converge with the smallest increment ({:.3g} of the load, "
                     "loading.minimum_increment) in {} iterations: {}",
-                    trial.step, trial.load, loading.minimum_increment, outcome.iterations, words_on(trial, outcome)));
+                    trial.step, trial.load, loading.minimum_increment, outcome.iterations, words));
   }
 
   Trial attempt(const FractureState& state, double planned, const IterationWatch& watch) {
@@ -226,7 +224,7 @@ StepReport FractureRun::step(FractureState& state, const IterationWatch& watch) 
   const FatigueCells& fatigue = parts_->staggered.fatigue();
   if (const double n = fatigue.cycles_to_jump(state, next_frame(parts_->loading, state.load)); n > 0.0) {
     FractureState beyond = state;
-    fatigue.jump(n, beyond);
+    parts_->staggered.jump(n, beyond);
     StepReport report = step(beyond, watch);
     state = std::move(beyond);
     return report;

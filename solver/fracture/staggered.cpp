@@ -82,10 +82,20 @@ void Staggered::set_toughness(const FractureState& state) {
   if (fatigue_.any()) damage_.set_toughness_factor(fatigue_.factors(state.fatigue), state.damage);
 }
 
-// The fall of the toughness takes surface energy from the damage that is there; it has been dissipated.
 void Staggered::accumulate_fatigue(FractureState& state) {
   if (!fatigue_.any()) return;
   fatigue_.accumulate(psi_plus_, damage_.stiffness_damage().of(state.damage), state.fatigue);
+  lower_toughness(state);
+}
+
+void Staggered::jump(double cycles, FractureState& state) {
+  set_toughness(state);
+  fatigue_.jump(cycles, state);
+  lower_toughness(state);
+}
+
+// The fall of the toughness takes surface energy from the damage that is there; it has been dissipated.
+void Staggered::lower_toughness(FractureState& state) {
   if (fatigue_.factors(state.fatigue) == damage_.toughness_factor()) return;
   damage_.renewed_fracture_energy(state.damage);
   const CellField<double> before = damage_.fracture_energy_density(state.damage);

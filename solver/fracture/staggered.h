@@ -85,6 +85,8 @@ class Staggered {
   const CellStiffness& stiffness() const { return stiffness_; }
   const CohesiveFaces& faces() const { return faces_; }
   const FatigueCells& fatigue() const { return fatigue_; }
+  /// Jumps over so many cycles of the load, with what that dissipates.
+  void jump(double cycles, FractureState& state);
   StageClock& clock() { return clock_; }
   /// Surface energy of a state [J], all that f Gc dgamma has dissipated, and per volume of the cells [J/m^3]; with the
   /// deferred flux of the last solution, or `renewed` with that of the state's damage.
@@ -131,6 +133,8 @@ class Staggered {
   void set_toughness(const FractureState& state);
   /// Fatigue of the step that ends with this state in equilibrium.
   void accumulate_fatigue(FractureState& state);
+  /// Goes from the toughness that the damage equation has to that of the state's fatigue.
+  void lower_toughness(FractureState& state);
   /// Updates the driving energy from the equilibrium. With `settles` the stiffness may follow the strain.
   Energies update_driving_energy(const FractureState& start, FractureState& state, bool settles);
   double potential_of_loads(const FractureState& state) const;  // elastic foundations included [J]

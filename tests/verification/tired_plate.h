@@ -94,6 +94,11 @@ inline FractureModel model_of(const Plate& plate, const Mesh& mesh) {
   return model;
 }
 
+inline Mesh mesh_of(Index n) {
+  return make_box_hexes(
+      {.axes = {{{{side, n, 1.0}}, {{side, n, 1.0}}, {{side / double(n), 1, 1.0}}}}, .regions = {}, .slits = {}});
+}
+
 struct Outcome {
   FractureState state;
   std::vector<Row> rows;
@@ -101,9 +106,7 @@ struct Outcome {
 };
 
 inline Outcome stretch(const Plate& plate, double cycles, Index steps_per_cycle, double tolerance = 1e-10) {
-  const Index n = plate.cells;
-  const Mesh mesh = make_box_hexes(
-      {.axes = {{{{side, n, 1.0}}, {{side, n, 1.0}}, {{side / double(n), 1, 1.0}}}}, .regions = {}, .slits = {}});
+  const Mesh mesh = mesh_of(plate.cells);
   const double increment = 1.0 / double(steps_per_cycle);
   FractureRun run(mesh, model_of(plate, mesh),
                   {.damage_tolerance = tolerance, .energy_tolerance = tolerance, .maximum_iterations = 5000},

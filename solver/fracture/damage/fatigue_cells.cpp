@@ -14,7 +14,8 @@
 namespace pfdm {
 namespace {
 
-constexpr double part_rounding = 1e-9;  // of a part of a cycle
+/// Of loads, over the length of a part of a cycle: that of many parts has the error of its sum.
+double rounding(double load, double part) { return 1e-9 + 8.0 * std::numeric_limits<double>::epsilon() * load / part; }
 
 bool tires(const RegionModel& region) { return region.damageable && region.fatigue.is_chosen(); }
 
@@ -25,10 +26,10 @@ bool has_fatigue(const Mesh& mesh, const FractureModel& model) {
 }
 
 /// How many parts of this length the load has gone through.
-double whole_parts(double load, double part) { return std::floor(load / part + part_rounding); }
+double whole_parts(double load, double part) { return std::floor(load / part + rounding(load, part)); }
 
 bool ends_cycle(double load, double cycle) {
-  return std::abs(load - cycle * whole_parts(load, cycle)) <= part_rounding * cycle;
+  return std::abs(load - cycle * whole_parts(load, cycle)) <= rounding(load, cycle) * cycle;
 }
 
 }  // namespace
@@ -69,16 +70,20 @@ double FatigueCells::spent_energy(const FatigueState& fatigue) const {
   return parallel_sum(mesh_.n_cells(), [&](Index c) { return mesh_.cell_volume[c] * fatigue.spent[c]; });
 }
 
-double FatigueCells::next_stop(double load) const {
+double FatigueCells::next_stop(double load, double stop) const {
   const FatigueCycles& cycles = model_.fatigue_cycles;
-  if (!any_ || !cycles.any()) return std::numeric_limits<double>::infinity();
+  if (!any_ || !cycles.any()) return stop;
   const double part = cycles.cycle / static_cast<double>(cycles.steps);
-  return part * (whole_parts(load, part) + 1.0);
+  const double end = part * (whole_parts(load, part) + 1.0);
+  return end > stop - rounding(stop, part) * part ? stop : end;
 }
 
 void FatigueCells::end_cycle(double load, FatigueState& fatigue) const {
   const FatigueCycles& cycles = model_.fatigue_cycles;
   if (!any_ || !cycles.any() || !ends_cycle(load, cycles.cycle)) return;
+  const double whole = whole_parts(load, cycles.cycle);
+  if (whole == fatigue.whole_cycles) return;
+  fatigue.whole_cycles = whole;
   fatigue.cycle_growth = CellField<double>(mesh_.n_cells(), 0.0);
   parallel_for(mesh_.n_cells(), [&](Index c) { fatigue.cycle_growth[c] = fatigue.energy[c] - fatigue.cycle_start[c]; });
   fatigue.cycle_start = fatigue.energy;
@@ -99,7 +104,7 @@ double FatigueCells::cycles_to_jump(const FractureState& state, double stop) con
   const FatigueState& fatigue = state.fatigue;
   if (!any_ || !cycles.any() || !(cycles.jump_tolerance > 0.0)) return 0.0;
   if (fatigue.computed_cycles < cycles.computed_cycles || !ends_cycle(state.load, cycles.cycle)) return 0.0;
-  const double most = whole_parts(stop - state.load, cycles.cycle) - 1.0;
+  const double most = whole_parts(stop, cycles.cycle) - whole_parts(state.load, cycles.cycle) - 1.0;
   if (!(most >= 1.0)) return 0.0;
   if (largest_fall(fatigue, most) <= cycles.jump_tolerance) return most;
   double allowed = 0.0, too_many = most;
@@ -116,7 +121,8 @@ void FatigueCells::jump(double cycles, FractureState& state) const {
   fatigue.cycle_start = fatigue.energy;
   fatigue.computed_cycles = 0;
   fatigue.jumped_cycles += cycles;
-  state.load += cycles * model_.fatigue_cycles.cycle;
+  fatigue.whole_cycles = std::round(state.load / model_.fatigue_cycles.cycle + cycles);
+  state.load = fatigue.whole_cycles * model_.fatigue_cycles.cycle;
 }
 
 FatigueReport FatigueCells::report(const FractureState& state) const {

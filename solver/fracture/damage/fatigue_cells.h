@@ -27,9 +27,10 @@ class FatigueCells {
   /// The part of the surface energy that FatigueState::spent counts [J]; exactly 0 while no f has fallen.
   double spent_energy(const FatigueState& fatigue) const;
 
-  /// The next load at which a step has to end; infinite without cycles.
-  double next_stop(double load) const;
-  /// Takes note of a whole cycle, if one ends at this load.
+  /// The next load at which a step has to end: that of a part of a cycle, or `stop`, another that must not be passed,
+  /// whichever is first. Two that differ by rounding are one, `stop`.
+  double next_stop(double load, double stop) const;
+  /// Takes note of a whole cycle, if one ends at this load and has not been counted.
   void end_cycle(double load, FatigueState& fatigue) const;
   /// Number of cycles by which a state may jump: by the tolerance, and so that a whole cycle is left before `stop`, the
   /// next load that must not be passed. 0: the next step goes on as usual.

@@ -15,6 +15,7 @@ struct FatigueState {
   CellField<double> cycle_start;   ///< alpha_bar of each cell when the cycle under way began [J/m^3]
   CellField<double> cycle_growth;  ///< of alpha_bar in the last whole cycle [J/m^3]; empty before the first
   Index computed_cycles = 0;       ///< whole ones since the start, or since the last jump
+  double whole_cycles = 0.0;       ///< up to the last that was counted, those of jumps included
   double jumped_cycles = 0.0;      ///< over which alpha_bar was extrapolated, since the start
   friend bool operator==(const FatigueState&, const FatigueState&) = default;
 };

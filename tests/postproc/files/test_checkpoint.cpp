@@ -54,6 +54,7 @@ FractureState awkward_state() {
                .cycle_start = CellField<double>({4.0, 5.0, 6.0}),
                .cycle_growth = CellField<double>({7.0, 8.0, 1.0 / 7.0}),
                .computed_cycles = 3,
+               .whole_cycles = 1e6 + 3.0,
                .jumped_cycles = 1e6};
   return s;
 }

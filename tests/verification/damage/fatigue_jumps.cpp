@@ -1,5 +1,6 @@
 // Jumps over cycles of a body with fatigue, against computing every cycle; threads.
 
+#include "solver/fracture/damage/fatigue_cells.h"
 #include "solver/parallel.h"
 #include "tests/verification/tired_plate.h"
 
@@ -43,6 +44,71 @@ TEST(FatigueJumps, ConvergeWithTheirTolerance) {
   EXPECT_LT(errors[2], errors[0]);
   EXPECT_LT(errors[2], 0.01);
   EXPECT_LT(cycles[2], 125.0);
+}
+
+// What a jump takes from the toughness of damage that is there has been dissipated before.
+TEST(FatigueJumps, GiveNoSurfaceEnergyBack) {
+  for (const Law& law : {asymptotic, logarithmic}) {
+    Plate plate{.law = law, .alpha_T = 2e4};
+    plate.cycles = {.cycle = 1.0, .steps = 4, .jump_tolerance = 0.05};
+    const Outcome outcome = stretch(plate, 120.0, 4);
+    ASSERT_GT(outcome.state.fatigue.jumped_cycles, 10.0);
+    ASSERT_GT(outcome.rows.back().damage, 0.5);
+    double before = 0.0;
+    for (const EnergyAccount& account : outcome.accounts) {
+      EXPECT_GE(account.fracture, before * (1.0 - 1e-12)) << law.name;
+      before = account.fracture;
+    }
+  }
+}
+
+// Two computed cycles and a jump over 997, to ten million: each part of a cycle has its length, each cycle counts once.
+TEST(FatigueJumps, KeepTheirPlaceInTheCycles) {
+  struct Case {
+    double cycle;
+    Index steps;
+  };
+  const Mesh mesh = mesh_of(1);
+  for (const auto& [cycle, steps] : {Case{0.7, 3}, Case{0.1, 4}, Case{1.0, 3}}) {
+    const double part = cycle / double(steps), end = 1e7 * cycle;
+    const Plate plate{.law = asymptotic, .cycles = {.cycle = cycle, .steps = steps, .jump_tolerance = 0.02}};
+    const FractureModel model = model_of(plate, mesh);
+    const FatigueCells cells(mesh, model);
+    FractureState state;
+    state.fatigue = cells.virgin();
+    for (double cycles = 0.0; state.load < 0.999 * end; cycles += 999.0) {
+      for (Index k = 0; k < 2 * steps; ++k) {
+        const double stop = cells.next_stop(state.load, end);
+        ASSERT_NEAR(stop - state.load, part, 1e-6 * part) << "at " << state.load << " of cycles of " << cycle;
+        state.load = stop;
+        state.fatigue.energy[0] += 1.0;
+        cells.end_cycle(state.load, state.fatigue);
+      }
+      ASSERT_EQ(state.fatigue.computed_cycles, 2) << "at " << state.load << " of cycles of " << cycle;
+      ASSERT_EQ(state.fatigue.cycle_growth[0], double(steps));
+      cells.jump(997.0, state);
+      ASSERT_NEAR(state.load / cycle, cycles + 999.0, 1e-6);
+    }
+  }
+}
+
+// A frame whose time has an error of rounding is the end of the cycle, which counts once.
+TEST(FatigueJumps, TakeAFrameForTheEndOfItsCycle) {
+  const Mesh mesh = mesh_of(1);
+  const Plate plate{.law = asymptotic, .cycles = {.cycle = 1.0, .steps = 2, .jump_tolerance = 0.02}};
+  const FractureModel model = model_of(plate, mesh);
+  const FatigueCells cells(mesh, model);
+  for (const double error : {-1e-10, 1e-10}) {
+    const double frame = 7.0 + error;
+    EXPECT_EQ(cells.next_stop(6.5, frame), frame);
+    EXPECT_EQ(cells.next_stop(frame, 100.0), 7.5);
+    FatigueState fatigue = cells.virgin();
+    fatigue.energy[0] = 3.0;
+    cells.end_cycle(frame, fatigue);
+    cells.end_cycle(7.0, fatigue);
+    EXPECT_EQ(fatigue.computed_cycles, 1);
+    EXPECT_EQ(fatigue.cycle_growth[0], 3.0);
+  }
 }
 
 TEST(FatigueJumps, AreTheSameOnAnyNumberOfThreads) {
