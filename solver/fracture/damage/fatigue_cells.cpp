@@ -32,6 +32,58 @@ bool ends_cycle(double load, double cycle) {
   return std::abs(load - cycle * whole_parts(load, cycle)) <= rounding(load, cycle) * cycle;
 }
 
+/// Whether f(t) differs by more than rounding between cycles, at some t of the first; the load ends at `end`.
+template <class F>
+bool changes(const F& f, double cycle, double end) {
+  constexpr double close = 1e-6;
+  double largest = 0.0, difference = 0.0;
+  for (const double share : {0.07, 0.19, 0.31, 0.43, 0.56, 0.69, 0.81, 0.94}) {
+    const double t = share * cycle, last = std::floor((end - t) / cycle);
+    if (last < 1.0) continue;
+    const auto first = f(t);
+    for (const double n : {1.0, last}) {
+      const auto later = f(t + n * cycle);
+      largest = std::max({largest, first.norm(), later.norm()});
+      difference = std::max(difference, (later - first).norm());
+    }
+  }
+  return difference > close * largest;
+}
+
+/// Of numbers.
+bool number_changes(const LoadField<double>& f, const Vector& x, double cycle, double end) {
+  return f && changes([&](double t) { return Vector(f(x, t), 0.0, 0.0); }, cycle, end);
+}
+
+void require_periodic(const Mesh& mesh, const FractureModel& model, double end) {
+  const double cycle = model.fatigue_cycles.cycle;
+  const auto refuse = [&](const std::string& what) {
+    throw InputError(fmt::format(
+        "jumps over cycles (fatigue.jump_tolerance) require loads that are the same in every cycle, of {:g} "
+        "in t (fatigue.cycle); {} are not",
+        cycle, what));
+  };
+  for (const BoundaryCondition& condition : model.boundary)
+    for (const Patch& patch : mesh.patches) {
+      if (patch.name != condition.patch) continue;
+      for (Index f = patch.first_face; f < patch.first_face + patch.n_faces; ++f) {
+        const Vector& x = mesh.face_centre[f];
+        if ((condition.value && changes([&](double t) { return condition.value(x, t); }, cycle, end)) ||
+            number_changes(condition.pressure, x, cycle, end))
+          refuse(fmt::format("the boundary values of patch \"{}\"", patch.name));
+      }
+    }
+  for (Index c = 0; c < mesh.n_cells(); ++c) {
+    const Vector& x = mesh.cell_centre[c];
+    for (const LoadField<Vector>* load : {&model.loads.gravity, &model.loads.force})
+      if (*load && changes([&](double t) { return (*load)(x, t); }, cycle, end)) refuse("the body forces ([loads])");
+    if (number_changes(model.loads.temperature, x, cycle, end)) refuse("the temperatures ([loads])");
+    if (const auto& strain = model.in_cell(mesh, c).eigenstrain;
+        strain && changes([&](double t) { return (*strain)(x, t); }, cycle, end))
+      refuse("the eigenstrains ([materials.NAME] eigenstrain)");
+  }
+}
+
 }  // namespace
 
 FatigueCells::FatigueCells(const Mesh& mesh, const FractureModel& model)
@@ -163,11 +215,19 @@ void require_fatigue(const Mesh& mesh, const FractureModel& model, const Loading
   }
   if (loading.controls_dissipation())
     refuse(fatigue, "dissipation control (loading.maximum_dissipation): the loads of cycles are not proportional to t");
+  if (model.heat && model.heat->cycle > 0.0)
+    refuse(fatigue, "cycles of heat ([heat] cycle), which end the run once their heat repeats");
+  if (model.fatigue_cycles.cycle > loading.end * (1.0 + 1e-9))
+    throw InputError(
+        fmt::format("a cycle (fatigue.cycle) takes {:g} of t, and the load ends before, at {:g}: expected "
+                    "loading.end = {:g} or more",
+                    model.fatigue_cycles.cycle, loading.end, model.fatigue_cycles.cycle));
   if (!(model.fatigue_cycles.jump_tolerance > 0.0)) return;
   constexpr std::string_view jumps = "jumps over cycles (fatigue.jump_tolerance)";
   if (model.heat) refuse(jumps, "heat ([heat]): they leave out what the cycles warm");
   if (!model.interfaces.empty()) refuse(jumps, "cohesive interfaces, whose history they do not extrapolate");
   if (model.viscosity > 0.0) refuse(jumps, "viscosity (fracture.viscosity): they leave out the time of the cycles");
+  require_periodic(mesh, model, loading.end);
 }
 
 }  // namespace pfdm

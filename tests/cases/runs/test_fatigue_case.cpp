@@ -87,6 +87,7 @@ TEST(FatigueCase, GoesOnAfterAStopToTheSameCycles) {
 
 TEST(FatigueCase, IsRefused) {
   const char* const fatigue = "fatigue = { law = \"asymptotic\", threshold = \"20 kJ/m^3\" }";
+  const std::string undamageable = "damageable = false\n" + std::string(fatigue);
   for (const BadInput& input : std::vector<BadInput>{
            {"law", "\"asymptotic\"", "\"linear\"", {"fatigue law", "linear", "asymptotic", "logarithmic"}},
            {"no threshold", ", threshold = \"20 kJ/m^3\"", "", {"threshold"}},
@@ -106,6 +107,11 @@ TEST(FatigueCase, IsRefused) {
             "toughness =",
             "law = \"neo_hookean\"\ntoughness =",
             {"fatigue", "neo_hookean", "linear elastic"}},
+           {"undamageable", fatigue, undamageable.c_str(), {"fatigue", "can be damaged", "damageable = false"}},
+           {"ramp", "6e-3*sin(pi*t)^2", "6e-3*t", {"jump_tolerance", "same in every cycle", "patch \"xmax\""}},
+           {"slow ramp", "sin(pi*t)^2", "sin(pi*t)^2*(1 + 1e-4*t)", {"same in every cycle", "patch \"xmax\""}},
+           {"two cycles", "cycle = 1", "cycle = 1.5", {"same in every cycle", "patch \"xmax\""}},
+           {"long cycle", "cycle = 1", "cycle = 41", {"fatigue.cycle", "41", "loading.end"}},
            {"dissipation", "end = 40", "end = 40\nmaximum_dissipation = \"1 uJ\"", {"maximum_dissipation"}}})
     expect_refused(TemporaryCase(replaced(tired_bar, input.good, input.bad)), input);
   const std::string strong =
@@ -116,6 +122,12 @@ TEST(FatigueCase, IsRefused) {
   const BadInput viscosity{
       "viscosity", "split = \"none\"", "split = \"none\"\nviscosity = \"1 kPa s\"", {"jump_tolerance", "viscosity"}};
   expect_refused(TemporaryCase(replaced(timed, viscosity.good, viscosity.bad)), viscosity);
+  const std::string computed = replaced(timed, "jump_tolerance = 0.05\n", "");
+  const std::string warm = replaced(
+      computed, "toughness =",
+      "density = \"2400 kg/m^3\"\nconductivity = \"2 W/(m K)\"\nspecific_heat = \"800 J/(kg K)\"\ntoughness =");
+  const BadInput heat{"heat", "[fatigue]", "[heat]\ncycle = 1\n[fatigue]", {"fatigue", "[heat] cycle", "repeats"}};
+  expect_refused(TemporaryCase(replaced(warm, heat.good, heat.bad)), heat);
 }
 
 }  // namespace

@@ -96,7 +96,11 @@ RegionModel region_model(const MaterialKeys& keys, const std::string& region, co
   model.damageable = keys.damageable.value_or(true);
   model.Gc = value_at(keys.toughness, x).value_or(0.0);
   model.ell = value_at(keys.length, x).value_or(defaults.ell.value_or(0.0));
-  if (!model.damageable) return model;
+  if (!model.damageable) {
+    if (const auto fatigue = table.find("fatigue"))
+      throw fatigue->error("this belongs to a material that can be damaged; leave it out, or damageable = false");
+    return model;
+  }
   if (!keys.toughness)
     throw table.error(
         fmt::format("region \"{}\" can be damaged but has no toughness (Gc); give toughness, as in "
