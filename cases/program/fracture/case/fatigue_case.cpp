@@ -19,7 +19,8 @@ const KeyTable& fatigue_cycle_keys() {
       .keys = {
           {"cycle", number(range::positive), "", "Load parameter that a cycle of the load takes."},
           stored<&C::steps>("steps", whole(parts_range),
-                            "Number of equal parts of a cycle at whose ends a step ends, so that it meets the peaks."),
+                            "Number of equal parts of a cycle at whose ends a step ends; the peaks of the load are to "
+                            "be among them."),
           stored<&C::jump_tolerance>("jump_tolerance", number(fall_range),
                                      "Largest fall of any cell's toughness factor f by a jump over cycles.",
                                      "none: every cycle is computed"),
