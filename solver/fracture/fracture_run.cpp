@@ -44,6 +44,7 @@ struct FractureRun::Parts {
   ResidualStiffness residual_stiffness;
   SpreadDamage spread_damage;
   RateResolution rate_resolution;
+  FatigueWork fatigue_work;
   BodyHeat heat;
   Index krylov_iterations = 0, staggered_iterations = 0;
 
@@ -137,7 +138,7 @@ struct FractureRun::Parts {
     state = std::move(next);
     const std::string residual =
         residual_stiffness.remark(outcome.share, std::max(outcome.starting_energy, supplied(state.energy)), state.load);
-    for (const std::string& remark : {unstable, unresolved, residual})
+    for (const std::string& remark : {unstable, unresolved, residual, fatigue_work.remark(staggered.fatigue(), state)})
       if (!remark.empty()) remarks.push_back(remark);
     StepReport result = report(state, outcome, increment);
     result.remarks = std::move(remarks);
@@ -221,8 +222,8 @@ StepReport FractureRun::report_of(const FractureState& start) {
 }
 
 StepReport FractureRun::step(FractureState& state, const IterationWatch& watch) {
-  const FatigueCells& fatigue = parts_->staggered.fatigue();
-  if (const double n = fatigue.cycles_to_jump(state, next_frame(parts_->loading, state.load)); n > 0.0) {
+  const double stop = next_frame(parts_->loading, state.load);
+  if (const double n = parts_->staggered.fatigue().cycles_to_jump(state, stop); n > 0.0) {
     FractureState beyond = state;
     parts_->staggered.jump(n, beyond);
     StepReport report = step(beyond, watch);

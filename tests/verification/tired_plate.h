@@ -103,6 +103,7 @@ struct Outcome {
   FractureState state;
   std::vector<Row> rows;
   std::vector<EnergyAccount> accounts;
+  Index lost_work = 0;  // remarks on it
 };
 
 inline Outcome stretch(const Plate& plate, double cycles, Index steps_per_cycle, double tolerance = 1e-10) {
@@ -114,7 +115,10 @@ inline Outcome stretch(const Plate& plate, double cycles, Index steps_per_cycle,
   Outcome outcome;
   outcome.state = run_to_end(run, [&](const FractureState& state, const StepReport& report) {
     if (report.step == 0) return;
-    for (const std::string& remark : report.remarks) EXPECT_EQ(remark.find("converge"), remark.npos) << remark;
+    for (const std::string& remark : report.remarks) {
+      EXPECT_EQ(remark.find("converge"), remark.npos) << remark;
+      if (remark.find("fatigue.steps") != remark.npos) ++outcome.lost_work;
+    }
     const EnergyAccount& e = report.energy;
     outcome.accounts.push_back(e);
     outcome.rows.push_back({.damage = report.max_damage,

@@ -196,6 +196,24 @@ void FatigueCells::show(const FatigueState& fatigue, std::vector<OutputHistory>&
   fields.push_back({.name = "toughness_factor", .unit = "1", .scalar = factors(fatigue)});
 }
 
+std::string FatigueWork::remark(const FatigueCells& fatigue, const FractureState& state) {
+  constexpr double bearable = 0.1;
+  if (!fatigue.any() || said_) return {};
+  const EnergyAccount& now = state.energy;
+  if (!first_) first_ = now;
+  largest_ = std::max(largest_, supplied(now) - supplied(*first_));
+  const double missing = left_over(*first_, *first_) - left_over(*first_, now);
+  if (!(missing > bearable * largest_) || !(now.fracture > first_->fracture)) return {};
+  said_ = true;
+  return fmt::format(
+      "at load {:.6g} the stored and the surface energy exceed the work by {:.0f} %: cracks grow at peaks of the load "
+      "at "
+      "which the work is not followed; take more parts of a cycle (fatigue.steps), and a load that is held at its "
+      "peaks "
+      "for a part of the cycle",
+      state.load, 100.0 * missing / largest_);
+}
+
 void require_fatigue(const Mesh& mesh, const FractureModel& model, const LoadingSettings& loading) {
   const auto refuse = [](std::string_view what, const std::string& with) {
     throw InputError(fmt::format("{} cannot be combined with {}", what, with));

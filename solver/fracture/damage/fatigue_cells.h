@@ -12,6 +12,9 @@
 #include "solver/fracture/model/fracture_model.h"
 #include "solver/fracture/model/state.h"
 
+#include <optional>
+#include <string>
+
 namespace pfdm {
 
 class FatigueCells {
@@ -48,6 +51,21 @@ class FatigueCells {
   const Mesh& mesh_;
   const FractureModel& model_;
   bool any_ = false;
+};
+
+/// Watches the energy account of a body with fatigue. A crack that grows at a peak of the load in a single step gives
+/// surface energy for which the work of that step is missing.
+class FatigueWork {
+ public:
+  /// The warning after a step to this state: where since the first step that was seen the other energies have
+  /// grown by more than the work, and by a tenth of the largest work so far. Empty without fatigue, and once it has
+  /// been given.
+  std::string remark(const FatigueCells& fatigue, const FractureState& now);
+
+ private:
+  std::optional<EnergyAccount> first_;
+  double largest_ = 0.0;  // [J]
+  bool said_ = false;
 };
 
 /// Throws InputError where fatigue, or jumps over cycles, cannot be combined with the rest of the model.

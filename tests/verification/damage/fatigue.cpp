@@ -153,5 +153,15 @@ TEST(Fatigue, AccountsForItsEnergy) {
   }
 }
 
+// Damage that grows at a peak in the only step up to it: work is missing, which is said once.
+TEST(Fatigue, TellsOfMissingWork) {
+  const Plate plate{.law = asymptotic};
+  const Outcome coarse = stretch(plate, 8.0, 2), fine = stretch(plate, 8.0, 64);
+  ASSERT_GT(coarse.rows.back().damage, 0.3);
+  ASSERT_GT(fine.rows.back().damage, 0.3);
+  EXPECT_EQ(coarse.lost_work, 1);
+  EXPECT_EQ(fine.lost_work, 0);
+}
+
 }  // namespace
 }  // namespace pfdm::verification::this_file
