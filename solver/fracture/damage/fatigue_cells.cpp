@@ -17,11 +17,11 @@ namespace {
 /// Of loads, over the length of a part of a cycle: that of many parts has the error of its sum.
 double rounding(double load, double part) { return 1e-9 + 8.0 * std::numeric_limits<double>::epsilon() * load / part; }
 
-bool tires(const RegionModel& region) { return region.damageable && region.fatigue.is_chosen(); }
+bool has_fatigue(const RegionModel& region) { return region.damageable && region.fatigue.is_chosen(); }
 
 bool has_fatigue(const Mesh& mesh, const FractureModel& model) {
   for (Index c = 0; c < mesh.n_cells(); ++c)
-    if (tires(model.in_cell(mesh, c))) return true;
+    if (has_fatigue(model.in_cell(mesh, c))) return true;
   return false;
 }
 
@@ -100,7 +100,7 @@ FatigueState FatigueCells::virgin() const {
 CellField<double> FatigueCells::factors(const FatigueState& fatigue) const {
   CellField<double> factors(mesh_.n_cells(), 1.0);
   parallel_for(mesh_.n_cells(), [&](Index c) {
-    if (const RegionModel& region = model_.in_cell(mesh_, c); tires(region))
+    if (const RegionModel& region = model_.in_cell(mesh_, c); has_fatigue(region))
       factors[c] = region.fatigue.factor(fatigue.energy[c]);
   });
   return factors;
@@ -110,7 +110,7 @@ void FatigueCells::accumulate(const CellField<double>& psi_plus, const CellField
                               FatigueState& fatigue) const {
   parallel_for(mesh_.n_cells(), [&](Index c) {
     const RegionModel& region = model_.in_cell(mesh_, c);
-    if (!tires(region)) return;
+    if (!has_fatigue(region)) return;
     const double active = model_.degradation_of(region).g(d[c]) * psi_plus[c];
     fatigue.energy[c] += std::max(active - fatigue.active[c], 0.0);
     fatigue.active[c] = active;
@@ -145,7 +145,7 @@ void FatigueCells::end_cycle(double load, FatigueState& fatigue) const {
 double FatigueCells::largest_fall(const FatigueState& fatigue, double cycles) const {
   return parallel_max(mesh_.n_cells(), [&](Index c) {
     const RegionModel& region = model_.in_cell(mesh_, c);
-    if (!tires(region)) return 0.0;
+    if (!has_fatigue(region)) return 0.0;
     const double now = fatigue.energy[c];
     return region.fatigue.factor(now) - region.fatigue.factor(now + cycles * fatigue.cycle_growth[c]);
   });
@@ -183,7 +183,7 @@ FatigueReport FatigueCells::report(const FractureState& state) const {
   if (model_.fatigue_cycles.any()) report.cycles = state.load / model_.fatigue_cycles.cycle;
   report.greatest_energy = parallel_max(mesh_.n_cells(), [&](Index c) {
     const RegionModel& region = model_.in_cell(mesh_, c);
-    return tires(region) ? fatigue.energy[c] / region.fatigue.threshold() : 0.0;
+    return has_fatigue(region) ? fatigue.energy[c] / region.fatigue.threshold() : 0.0;
   });
   const CellField<double> f = factors(fatigue);
   report.least_factor = 1.0 - parallel_max(mesh_.n_cells(), [&](Index c) { return 1.0 - f[c]; });
@@ -225,7 +225,7 @@ void require_fatigue(const Mesh& mesh, const FractureModel& model, const Loading
   }
   constexpr std::string_view fatigue = "fatigue ([materials.NAME] fatigue)";
   for (const RegionModel& region : model.regions) {
-    if (!tires(region)) continue;
+    if (!has_fatigue(region)) continue;
     if (region.material)
       refuse(fatigue, fmt::format("the law \"{}\": the materials have to be linear elastic", region.material->name()));
     if (region.strength.is_chosen())

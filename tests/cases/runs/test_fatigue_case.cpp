@@ -14,7 +14,7 @@ namespace pfdm::this_file {
 namespace {
 
 // A bar that breaks after some 35 cycles.
-const std::string tired_bar = R"toml(kind = "fracture"
+const std::string weakened_bar = R"toml(kind = "fracture"
 title = "a bar under cycles of tension"
 [mesh]
 generator = "box_hexes"
@@ -52,7 +52,7 @@ frames_at = [20.5]
 )toml";
 
 TEST(FatigueCase, WritesItsCycles) {
-  const TemporaryCase directory(tired_bar);
+  const TemporaryCase directory(weakened_bar);
   const Outcome outcome = run({"run", directory.path().string()});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   const CsvTable table = read_csv(directory.results() / "fatigue.csv");
@@ -73,7 +73,7 @@ TEST(FatigueCase, WritesItsCycles) {
 }
 
 TEST(FatigueCase, GoesOnAfterAStopToTheSameCycles) {
-  const TemporaryCase whole(tired_bar), stopped(tired_bar);
+  const TemporaryCase whole(weakened_bar), stopped(weakened_bar);
   ASSERT_EQ(run({"run", whole.path().string(), "--quiet"}).status, 0);
   for (const char* steps : {"3", "4", "9"})  // within a cycle, at the end of one, and after a jump
     ASSERT_EQ(run({"run", stopped.path().string(), "--quiet", "--restart", "--max-steps", steps}).status, 0);
@@ -113,12 +113,12 @@ TEST(FatigueCase, IsRefused) {
            {"two cycles", "cycle = 1", "cycle = 1.5", {"same in every cycle", "patch \"xmax\""}},
            {"long cycle", "cycle = 1", "cycle = 41", {"fatigue.cycle", "41", "loading.end"}},
            {"dissipation", "end = 40", "end = 40\nmaximum_dissipation = \"1 uJ\"", {"maximum_dissipation"}}})
-    expect_refused(TemporaryCase(replaced(tired_bar, input.good, input.bad)), input);
+    expect_refused(TemporaryCase(replaced(weakened_bar, input.good, input.bad)), input);
   const std::string strong =
-      replaced(tired_bar, "toughness =", "strength = \"3 MPa\"\ncompressive_strength = \"30 MPa\"\ntoughness =");
+      replaced(weakened_bar, "toughness =", "strength = \"3 MPa\"\ncompressive_strength = \"30 MPa\"\ntoughness =");
   const BadInput strength{"strength", "\"AT1\"", "\"strength\"", {"fatigue", "a model of strength"}};
   expect_refused(TemporaryCase(replaced(strong, strength.good, strength.bad)), strength);
-  const std::string timed = replaced(tired_bar, "end = 40\n", "end = 40\nduration = \"1 s\"\n");
+  const std::string timed = replaced(weakened_bar, "end = 40\n", "end = 40\nduration = \"1 s\"\n");
   const BadInput viscosity{
       "viscosity", "split = \"none\"", "split = \"none\"\nviscosity = \"1 kPa s\"", {"jump_tolerance", "viscosity"}};
   expect_refused(TemporaryCase(replaced(timed, viscosity.good, viscosity.bad)), viscosity);

@@ -2,7 +2,7 @@
 // integrated at a point: by the scheme of the program (f of the step's start), and with small steps.
 
 #include "solver/fracture/damage/damage_equation.h"
-#include "tests/verification/tired_plate.h"
+#include "tests/verification/fatigue_plate.h"
 
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@
 namespace pfdm::verification::this_file {
 namespace {
 
-using namespace tired;
+using namespace fatigue_plate;
 
 // The program does at a cell what the equations say, step by step.
 TEST(Fatigue, OfACellIsThatOfThePoint) {
@@ -121,9 +121,9 @@ TEST(Fatigue, FactorsAreThoseOfTheToughness) {
 TEST(Fatigue, BelowItsThresholdChangesNoBit) {
   for (const std::string crack : {"AT1", "AT2"}) {
     const Plate plain{.crack = crack, .cells = 8, .weakness = 0.02, .is_monotonic = true};
-    Plate tires = plain;
-    tires.law = asymptotic, tires.alpha_T = 1e9;
-    const Outcome a = stretch(plain, 1.0, 20, 1e-6), b = stretch(tires, 1.0, 20, 1e-6);
+    Plate with_fatigue = plain;
+    with_fatigue.law = asymptotic, with_fatigue.alpha_T = 1e9;
+    const Outcome a = stretch(plain, 1.0, 20, 1e-6), b = stretch(with_fatigue, 1.0, 20, 1e-6);
     EXPECT_GT(a.rows.back().damage, 0.3);
     EXPECT_TRUE(a.state.damage == b.state.damage);
     EXPECT_TRUE(a.state.displacement == b.state.displacement);

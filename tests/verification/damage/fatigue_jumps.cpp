@@ -2,14 +2,14 @@
 
 #include "solver/fracture/damage/fatigue_cells.h"
 #include "solver/parallel.h"
-#include "tests/verification/tired_plate.h"
+#include "tests/verification/fatigue_plate.h"
 
 #include <cmath>
 
 namespace pfdm::verification::this_file {
 namespace {
 
-using namespace tired;
+using namespace fatigue_plate;
 
 // While no damage grows alpha_bar is the same as without jumps.
 TEST(FatigueJumps, AreExactWhileTheCyclesAreAlike) {

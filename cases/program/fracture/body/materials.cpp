@@ -214,7 +214,7 @@ Materials read_materials(const ConfigTable& root, const MaterialDefaults& defaul
                                     fmt::ptr(entry.keys.material.get())),
          .material = entry.keys.material,
          .split = entry.keys.split.value_or(EnergySplit()),
-         .tires = entry.keys.fatigue && entry.keys.damageable.value_or(true)});
+         .has_fatigue = entry.keys.fatigue && entry.keys.damageable.value_or(true)});
   }
   return materials;
 }

@@ -23,7 +23,7 @@ struct RegionMaterial {
   std::string elastic_law;                         ///< equal texts are equal elasticities and histories
   std::shared_ptr<const Material> material;        ///< null: linear elastic
   EnergySplit split;                               ///< of its own, if one is chosen
-  bool tires = false;                              ///< whether its toughness falls by fatigue
+  bool has_fatigue = false;                        ///< whether its toughness falls by fatigue
 };
 
 struct NamedElasticity {
@@ -38,7 +38,7 @@ struct Materials {
   bool corrects_toughness = true;    ///< of bands, for their neighbours
   std::vector<std::string> remarks;  ///< what was made of the numbers given, to be said in the log
 
-  bool tires() const { return std::ranges::any_of(by_region, &RegionMaterial::tires); }
+  bool has_fatigue() const { return std::ranges::any_of(by_region, &RegionMaterial::has_fatigue); }
   /// The elasticity of the material that `name` holds; throws InputError naming those there are, or if it varies.
   const IsotropicElasticity& elasticity(const ConfigValue& name) const;
 };

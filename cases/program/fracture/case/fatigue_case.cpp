@@ -36,7 +36,7 @@ FatigueCycles read_fatigue_cycles(const ConfigTable& root, const Materials& mate
   const ConfigTable table = root.table("fatigue");
   read_stored(table, cycles);
   cycles.cycle = table.number("cycle");
-  if (!materials.tires())
+  if (!materials.has_fatigue())
     throw table.error(
         "no damageable material has fatigue; give one fatigue = { law = \"asymptotic\", threshold = \"50 kJ/m^3\" }, "
         "or leave "

@@ -62,7 +62,7 @@ FractureResults::Files::Files(const fs::path& folder, const FractureCase& fractu
   if (!sets.empty()) columns.emplace(folder / columns_folder, sets, fracture.cohesive.axis, last_step);
   if (const auto& tips = fracture.output.tips; !tips.empty()) energy_release.emplace(folder, tips, last_step);
   if (fracture.heat) heat.emplace(folder / heat_file, columns_of_heat(), last_step);
-  if (fracture.materials.tires()) fatigue.emplace(folder / fatigue_file, columns_of_fatigue(), last_step);
+  if (fracture.materials.has_fatigue()) fatigue.emplace(folder / fatigue_file, columns_of_fatigue(), last_step);
   if (fracture.box) means.emplace(folder / means_file, columns_of_means(fracture.interfaces), last_step);
 }
 

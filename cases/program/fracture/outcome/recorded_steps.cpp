@@ -62,7 +62,7 @@ void require_steps_up_to(const FractureState& state, const fs::path& results, co
   if (n_column_sets > 0) require_columns(results / columns_folder, n_column_sets, state.step);
   if (!fracture.output.tips.empty())
     require_table(results / energy_release_file, energy_release_columns(fracture.output.tips), state.step);
-  if (fracture.materials.tires()) require_table(results / fatigue_file, columns_of_fatigue(), state.step);
+  if (fracture.materials.has_fatigue()) require_table(results / fatigue_file, columns_of_fatigue(), state.step);
   if (fracture.box) require_table(results / means_file, columns_of_means(fracture.interfaces), state.step);
 }
 

@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-namespace pfdm::verification::tired {
+namespace pfdm::verification::fatigue_plate {
 
 inline constexpr double E = 30e9, Gc = 100.0, ell = 5e-3, side = 10e-3, threshold = 2e3;
 inline constexpr double peak_strain = 3e-4;  // 0.6 of the elastic limit of AT1
@@ -129,4 +129,4 @@ inline Outcome stretch(const Plate& plate, double cycles, Index steps_per_cycle,
   return outcome;
 }
 
-}  // namespace pfdm::verification::tired
+}  // namespace pfdm::verification::fatigue_plate
