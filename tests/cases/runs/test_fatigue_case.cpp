@@ -85,6 +85,16 @@ TEST(FatigueCase, GoesOnAfterAStopToTheSameCycles) {
   }
 }
 
+TEST(FatigueCase, MayHaveARegionThatIsNotDamageable) {
+  const std::string split = replaced(
+      replaced(
+          weakened_bar, "[materials.stone]\nregions = [\"body\"]\n",
+          "[[mesh.regions]]\nname = \"end\"\nlower = [\"15 mm\", \"-1 mm\", \"-1 mm\"]\nupper = [\"30 mm\", \"2 mm\", "
+          "\"2 mm\"]\n[materials.stone]\nregions = [\"body\", \"end\"]\n"),
+      "[fracture]\n", "[regions.end]\ndamageable = false\n[fracture]\n");
+  EXPECT_EQ(run({"check", TemporaryCase(split).path().string()}).err, "");
+}
+
 TEST(FatigueCase, IsRefused) {
   const char* const fatigue = "fatigue = { law = \"asymptotic\", threshold = \"20 kJ/m^3\" }";
   const std::string undamageable = "damageable = false\n" + std::string(fatigue);

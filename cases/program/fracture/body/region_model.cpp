@@ -97,8 +97,10 @@ RegionModel region_model(const MaterialKeys& keys, const std::string& region, co
   model.Gc = value_at(keys.toughness, x).value_or(0.0);
   model.ell = value_at(keys.length, x).value_or(defaults.ell.value_or(0.0));
   if (!model.damageable) {
-    if (const auto fatigue = table.find("fatigue"))
-      throw fatigue->error("this belongs to a material that can be damaged; leave it out, or damageable = false");
+    // Of the material itself; a region of it may be undamageable.
+    if (keys.fatigue && !table.boolean("damageable", true))
+      throw table.at("fatigue").error(
+          "this belongs to a material that can be damaged; leave it out, or damageable = false");
     return model;
   }
   if (!keys.toughness)
