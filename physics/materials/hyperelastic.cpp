@@ -106,7 +106,7 @@ double HyperelasticMaterial::instantaneous_shear_modulus() const {
 }
 
 double HyperelasticMaterial::volume_strain(double change) const {
-  return extended(change, [this](double at) { return volume_energy(p_.volumetric, at); }).slope;
+  return extended_volume_energy(p_.volumetric, change).slope;
 }
 
 VolumeAt HyperelasticMaterial::volume(double q, double modulus) const {

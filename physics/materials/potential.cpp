@@ -43,4 +43,8 @@ OfVolume volume_energy(VolumetricForm form, double change) {
   return {0.25 * (square - 2.0 * std::log1p(change)), 0.5 * square / J, 0.5 * (1.0 + 1.0 / (J * J))};
 }
 
+OfVolume extended_volume_energy(VolumetricForm form, double change) {
+  return extended(change, [form](double at) { return volume_energy(form, at); });
+}
+
 }  // namespace pfdm

@@ -55,5 +55,7 @@ OfVolume extended(double change, const Function& f) {
 /// U/Lambda at J - 1 = `change`. Its slope is the volume strain u that the pressure is proportional to, u = J - 1 or
 /// (J - 1/J)/2.
 OfVolume volume_energy(VolumetricForm form, double change);
+/// u and its slopes [-] as the slope and the curvature of U/Lambda, of any J.
+OfVolume extended_volume_energy(VolumetricForm form, double change);
 
 }  // namespace pfdm

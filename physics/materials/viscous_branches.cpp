@@ -108,8 +108,18 @@ ViscousBranches::Flow ViscousBranches::flow(std::size_t i, const Shape& now, con
   return flow;
 }
 
-// Where the cell is sound P = mu_i (F (C_v^-1 - 1) + J^(-1/3) cof F (C' - 1)), and as det C' = det C_v = 1, with B =
-// (C' - C_v) C_v^-1, C':C_v^-1 - 3 = tr B = (tr B^2 - (tr B)^2)/2 - det B: nothing cancels at small strain.
+// Energy and stress alone, of a regular shape: P = mu_i (F (C_v^-1 - 1) + J^(-1/3) cof F (C' - 1)), and as det C' = det
+// C_v = 1, with B = (C' - C_v) C_v^-1, C':C_v^-1 - 3 = tr B = (tr B^2 - (tr B)^2)/2 - det B: nothing cancels at small
+// strain.
+PotentialAt ViscousBranches::force(std::size_t i, const Tensor& F, const Shape& now, const Flow& flow) const {
+  const double mu = branches_[i].modulus;
+  const Tensor B = (now.strain - flow.strain) * flow.inverse;
+  const double trace = 0.5 * ((B * B).trace() - B.trace() * B.trace()) - B.determinant();
+  return {.energy = 0.5 * mu * trace / now.factor.value,
+          .stress = mu * (F * (-flow.inverse * flow.strain) +
+                          std::cbrt(1.0 / (1.0 + now.change)) * cofactor(F) * now.strain)};
+}
+
 PotentialAt ViscousBranches::shear(std::size_t i, const Tensor& F, const Shape& now, const Flow& flow) const {
   const double mu = branches_[i].modulus;
   const MandelMatrix by_M = mu * flow.root * inverse_change(flow.inverse_of_M);
@@ -121,18 +131,14 @@ PotentialAt ViscousBranches::shear(std::size_t i, const Tensor& F, const Shape& 
   const Tensor S_by_volume = to_tensor(by_M * (flow.share * to_mandel(now.by_volume())));
   result.tangent += to_components(F * S_by_volume) * to_components(cofactor(F)).transpose();
   if (!now.is_regular()) return result;
-  const Tensor B = (now.strain - flow.strain) * flow.inverse;
-  const double trace = 0.5 * ((B * B).trace() - B.trace() * B.trace()) - B.determinant();
-  result.energy = 0.5 * mu * trace / now.factor.value;
-  result.stress =
-      mu * (F * (-flow.inverse * flow.strain) + std::cbrt(1.0 / (1.0 + now.change)) * cofactor(F) * now.strain);
+  const PotentialAt exact = force(i, F, now, flow);
+  result.energy = exact.energy;
+  result.stress = exact.stress;
   return result;
 }
 
 double ViscousBranches::spring(std::size_t i, const Shape& now, const Shape& before, const PointBefore& at) const {
-  const auto volume_strain = [this](double change) {
-    return extended(change, [&](double to) { return volume_energy(form_, to); }).slope;
-  };
+  const auto volume_strain = [this](double change) { return extended_volume_energy(form_, change).slope; };
   const PronyDecay by = decay_over(at.duration / branches_[i].time);
   return by.after(at.history[springs_ + i], volume_strain(now.change) - volume_strain(before.change));
 }
@@ -143,7 +149,7 @@ PotentialAt ViscousBranches::over(const Tensor& H, const PointBefore& before) co
   const Shape now(H), earlier(before.from);
   const Tensor F = Tensor::Identity() + H;
   OfVolume of_springs;
-  const OfVolume volume = extended(now.change, [this](double at) { return volume_energy(form_, at); });
+  const OfVolume volume = extended_volume_energy(form_, now.change);
   for (std::size_t i = 0; i < branches_.size(); ++i) {
     sum += shear(i, F, now, flow(i, now, earlier, before));
     if (bulk_ratio_ == 0.0) continue;
@@ -167,7 +173,7 @@ void ViscousBranches::advance(const Tensor& H, const PointBefore& before, std::s
   for (std::size_t i = 0; i < branches_.size(); ++i) {
     const Flow flow_i = flow(i, now, earlier, before);
     if (is_regular) {
-      const PotentialAt at = shear(i, F, now, flow_i), at_n = shear(i, F_n, earlier, flow(i, earlier, earlier, held));
+      const PotentialAt at = force(i, F, now, flow_i), at_n = force(i, F_n, earlier, flow(i, earlier, earlier, held));
       const Tensor S = F.inverse() * at.stress + F_n.inverse() * at_n.stress;
       heat += 0.5 * contract(S, dE) - (at.energy - at_n.energy);
     }

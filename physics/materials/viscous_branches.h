@@ -58,6 +58,7 @@ class ViscousBranches {
   struct Shape;  // of a deformation
   struct Flow;   // of a branch in a step
   Flow flow(std::size_t branch, const Shape& now, const Shape& before, const PointBefore& at) const;
+  PotentialAt force(std::size_t branch, const Tensor& F, const Shape& now, const Flow& flow) const;
   PotentialAt shear(std::size_t branch, const Tensor& F, const Shape& now, const Flow& flow) const;
   double spring(std::size_t branch, const Shape& now, const Shape& before, const PointBefore& at) const;
 

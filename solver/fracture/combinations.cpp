@@ -95,17 +95,21 @@ void require_mean_damage(const Mesh& mesh, const FractureModel& model) {
         "stiffness by the mean damage (fracture.stiffness_damage = \"mean\") cannot be combined with {}", what));
 }
 
+void require_duration(const Material& law, const LoadingSettings& loading) {
+  if (law.depends_on_rate() && !(loading.duration > 0.0))
+    throw InputError(
+        fmt::format("a material of the law \"{}\" that depends on the rate requires loading.duration, the time in "
+                    "which t grows by 1",
+                    law.name()));
+}
+
 void require_history(const FractureModel& m, const Material& law, const LoadingSettings& loading) {
   if (!m.is_isotropic())
     throw InputError(
         fmt::format("materials of the law \"{}\" can only be combined with energy splits that have isotropic secant "
                     "moduli: {}",
                     law.name(), splits_with_secant()));
-  if (law.depends_on_rate() && !(loading.duration > 0.0))
-    throw InputError(
-        fmt::format("a material of the law \"{}\" that depends on the rate requires loading.duration, the time in "
-                    "which t grows by 1",
-                    law.name()));
+  require_duration(law, loading);
   if (loading.controls_dissipation())
     throw InputError(
         fmt::format("dissipation control (loading.maximum_dissipation) cannot be combined with materials of the law "
@@ -274,7 +278,10 @@ void require_combination(const Mesh& mesh, const FractureModel& model, const Unk
       require_history(model, *region.material, loading);
       require_relaxing(model, region);
     }
-  if (model.is_finite_strain()) require_finite(model, unknowns, loading);
+  if (model.is_finite_strain()) {
+    for (const RegionModel& region : model.regions) require_duration(*region.material, loading);
+    require_finite(model, unknowns, loading);
+  }
   if (model.has_strength()) require_strength(model);
   if (model.stiffness_by == StiffnessBy::mean) require_mean_damage(mesh, model);
   require_loads(mesh, model, unknowns, loading);

@@ -27,14 +27,10 @@ void require_finite_interfaces(const FractureModel& m) {
 }
 
 // One modulus makes no strength.
-void require_finite_branches(const FractureModel& m, const LoadingSettings& loading) {
+void require_finite_branches(const FractureModel& m) {
   for (const RegionModel& region : m.regions) {
     if (!region.material || region.material->relaxing() == nullptr) continue;
     const std::string_view law = region.material->name();
-    if (!(loading.duration > 0.0))
-      throw InputError(fmt::format(
-          "a material of the law \"{}\" with shear_branches requires loading.duration, the time in which t grows by 1",
-          law));
     const bool rational = region.damageable && m.degradation_of(region).law().needs_strength;
     if (rational || region.strength.is_chosen())
       throw InputError(fmt::format(
@@ -84,7 +80,7 @@ void require_finite(const FractureModel& m, const Unknowns& unknowns, const Load
   }
   require_finite_interfaces(m);
   if (unknowns.plane_stress) require_finite_plate(m);
-  require_finite_branches(m, loading);
+  require_finite_branches(m);
   if (m.motion.any()) refuse("a prescribed mean strain or stress: the means are those of small strain");
   if (loading.controls_dissipation())
     refuse("dissipation control (loading.maximum_dissipation): their displacements are not proportional to the load");

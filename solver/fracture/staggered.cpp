@@ -42,7 +42,7 @@ StepOutcome Staggered::solve_step(const FractureState& start, FractureState& sta
   faces_.start_step(limits.duration);
   telling_ = {.watch = watch, .last = {.step = state.step, .load = state.load}, .after = telling_.after};
   momentum_.start_afresh();  // as a restarted run does
-  stiffness_.start_from(start, 0.0);
+  if (model_.has_strength() || model_.has_eigenstrain()) stiffness_.start_from(start, 0.0);
   set_toughness(start);
   const StrengthDrive strength_before = strength_drive_of(start);
   const FreeStrained strained_before = free_strained(start);

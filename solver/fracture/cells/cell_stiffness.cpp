@@ -155,7 +155,7 @@ HistoryStress CellStiffness::with_histories(const FractureState& state, const Ce
 }
 
 double CellStiffness::integrate(const CellMechanics& mechanics, const FractureState& start, FractureState& state) {
-  if (finite_.any()) finite_.advance(mechanics, factors(state), state.histories);
+  if (finite_.histories().any()) finite_.advance(mechanics, factors(state), state.histories);
   if (!materials_.any()) return 0.0;
   return parallel_sum(mesh_.n_cells(), [&](Index c) {
     if (!materials_.has(c)) return 0.0;
@@ -241,9 +241,8 @@ double CellStiffness::plastic_dissipation(Index cell, const FractureState& from,
                                factor(cell, to.damage[cell]));
   if (!materials_.has(cell)) return 0.0;
   const double g_from = factor(cell, from.damage[cell]), g_to = factor(cell, to.damage[cell]);
-  const MaterialEnergy before = materials_.energy(cell, from.histories), after = materials_.energy(cell, to.histories);
-  const double flow = degraded_dissipation(g_from, g_to, after.dissipated - before.dissipated);
-  return mesh_.cell_volume[cell] * (flow + freed_energy(g_from, before.idle, g_to, after.idle));
+  return mesh_.cell_volume[cell] *
+         degraded_heat(g_from, materials_.energy(cell, from.histories), g_to, materials_.energy(cell, to.histories));
 }
 
 double CellStiffness::follow(const CellMechanics& mechanics, FractureState& state) {

@@ -3,6 +3,8 @@
 // falls by orders and what the undamaged material would store and dissipate rises by orders, as the crack opens: the
 // trapezoidal rule gave half of that as heat. Where changes are small both are the same to second order.
 
+#include "physics/materials/material.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -28,6 +30,13 @@ inline double freed_energy(double g_from, double W_from, double g_to, double W_t
 /// int g dw of what the undamaged material dissipates, by the geometric mean of g.
 inline double degraded_dissipation(double g_from, double g_to, double dissipated) {
   return std::sqrt(g_from * g_to) * dissipated;
+}
+
+/// Heat of a cell per volume [J/m^3] while its stiffness factor goes from g_from to g_to: what flows, and what damage
+/// frees of the energy that does not drive it.
+inline double degraded_heat(double g_from, const MaterialEnergy& before, double g_to, const MaterialEnergy& after) {
+  return degraded_dissipation(g_from, g_to, after.dissipated - before.dissipated) +
+         freed_energy(g_from, before.idle, g_to, after.idle);
 }
 
 }  // namespace pfdm

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 namespace pfdm {
 namespace {
@@ -220,21 +219,14 @@ double FiniteCells::closure(Index cell, const CellMechanics& mechanics) const {
   return std::clamp(-volume_change(F_e) / closing_range, 0.0, 1.0);
 }
 
-void FiniteCells::set_own_sides(std::vector<Index> cells) {
-  cells_of_own_ = cells;
-  histories_.set_own_sides(std::move(cells));
-}
-
 void FiniteCells::advance(const CellMechanics& mechanics, const CellField<double>& g, CellHistories& to) {
-  if (!histories_.any()) return;
   if (mechanics.eigenstrain.size() > 0) free_volume_ = CellField<double>(mesh_.n_cells(), 1.0);
-  const Index n_cells = mesh_.n_cells();
   parallel_for(count_of(mechanics.gradients_of_laws), [&](Index k) {
-    const FinitePlace at = k < n_cells ? FinitePlace{k} : FinitePlace{cells_of_own_[k - n_cells], k - n_cells};
+    const FinitePlace at = histories_.place(k);
     if (!histories_.has(at.cell)) return;
     const FreeDeformation free = free_deformation(at.cell, mechanics);
     histories_.advance(at, thinned(at, elastic(mechanics.gradients_of_laws[k], free), g[at.cell]), to);
-    if (k >= n_cells) return;
+    if (at.own >= 0) return;
     if (free_volume_.size() > 0) free_volume_[k] = free.volume();
     const bool has_volume = mechanics.volume_change.size() > 0;
     const double change = has_volume ? free.elastic_change(mechanics.volume_change[k]) : 0.0;

@@ -32,6 +32,9 @@
 #include "solver/fracture/model/state.h"
 #include "solver/momentum/solution/momentum_solver.h"
 
+#include <utility>
+#include <vector>
+
 namespace pfdm {
 
 /// The energies of a cell at some displacements, each of which has its share by the damage [J/m^3].
@@ -62,10 +65,11 @@ class FiniteCells {
   /// says: 1 where J_e < 1 and the split keeps the bulk modulus, 0 where J_e > 1.
   FiniteLaw law(FinitePlace at, const Tensor& H, double g, double closure, const FreeDeformation& free = {}) const;
   const FiniteHistories& histories() const { return histories_; }
-  void set_own_sides(std::vector<Index> cells);
+  void set_own_sides(std::vector<Index> cells) { histories_.set_own_sides(std::move(cells)); }
   /// Begins a step at these histories, which takes `duration` [s]; 0: holds them. Laws and energies are those of it.
   void start_from(const CellHistories& start, double duration) { histories_.start_from(start, duration); }
-  /// Takes the histories of viscoelastic cells, with the stiffness factors g, to the deformation of now.
+  /// Takes the histories of viscoelastic cells, if there are any, with the stiffness factors g, to the deformation of
+  /// now.
   void advance(const CellMechanics& mechanics, const CellField<double>& g, CellHistories& to);
   /// Heat of the branches of a cell from one history to another while its factor went from g_from to g_to, with what
   /// damage frees of them without being driven by it [J].
@@ -129,7 +133,6 @@ class FiniteCells {
   CellField<const HyperelasticMaterial*> material_;  // empty at small strain
   CellField<const FiniteSplit*> split_;              // empty at small strain
   FiniteHistories histories_;
-  std::vector<Index> cells_of_own_;
   CellField<double> free_volume_;         // J* of viscoelastic cells as they were advanced; empty: 1
   Vector across_ = Vector::Zero();        // normal of a plate in plane stress
   Vector plane_normal_ = Vector::Zero();  // of a plane mesh

@@ -38,27 +38,18 @@ FiniteShare sound_share(const HyperelasticMaterial& material, double g) {
   return {.value = value, .slope = 0.5 * by_z / z, .curvature = 0.25 * (twice_by_z - by_z / z) / g};
 }
 
-double pressure_ratio(const HyperelasticMaterial& material) {
-  return material.pressure_modulus() / (CellPressure::moderate_lambda * material.instantaneous_shear_modulus());
-}
-
 // Share of the volumetric energy c U that is left to a material with a pressure: g w/(1 + kappa/kappa_s (1 - g)^2).
-FiniteShare pressure_share(const HyperelasticMaterial& material, double g, const FiniteShare& sound) {
-  const double ratio = pressure_ratio(material), lost = 1.0 - g;
-  const double by = 1.0 + ratio * lost * lost, by_slope = -2.0 * ratio * lost;
+void share_pressure(const HyperelasticMaterial& material, double g, FiniteShares& shares) {
+  const FiniteShare& sound = shares.moderate;
+  const double ratio =
+      material.pressure_modulus() / (CellPressure::moderate_lambda * material.instantaneous_shear_modulus());
+  const double lost = 1.0 - g, by = 1.0 + ratio * lost * lost, by_slope = -2.0 * ratio * lost;
   const double value = sound.value / by, slope = (sound.slope - value * by_slope) / by;
   const double curvature = (sound.curvature - 2.0 * slope * by_slope - 2.0 * ratio * value) / by;
-  return {.value = least_modulus + (1.0 - least_modulus) * value,
-          .slope = (1.0 - least_modulus) * slope,
-          .curvature = (1.0 - least_modulus) * curvature};
-}
-
-FiniteShare pressure_as_moderate(const HyperelasticMaterial& material, double g, const FiniteShare& sound) {
-  const double ratio = pressure_ratio(material), lost = 1.0 - g;
-  const double by = 1.0 + ratio * lost * lost, by_slope = -2.0 * ratio * lost;
-  return {.value = 0.0,
-          .slope = (1.0 - least_modulus) * sound.slope / by,
-          .curvature = (1.0 - least_modulus) * (sound.curvature - sound.slope * by_slope / by) / by};
+  constexpr double part = 1.0 - least_modulus;
+  shares.pressure = {.value = least_modulus + part * value, .slope = part * slope, .curvature = part * curvature};
+  shares.pressure_as_moderate = {.slope = part * sound.slope / by,
+                                 .curvature = part * (sound.curvature - sound.slope * by_slope / by) / by};
 }
 
 }  // namespace
@@ -75,10 +66,10 @@ const FiniteSplit& finite_split(std::string_view name) {
 
 FiniteShares finite_shares(const HyperelasticMaterial& material, double g) {
   const FiniteShare sound = sound_share(material, g);
-  return {.moderate = sound,
-          .network = {.value = g - sound.value, .slope = 1.0 - sound.slope, .curvature = -sound.curvature},
-          .pressure = pressure_share(material, g, sound),
-          .pressure_as_moderate = pressure_as_moderate(material, g, sound)};
+  FiniteShares shares{.moderate = sound,
+                      .network = {.value = g - sound.value, .slope = 1.0 - sound.slope, .curvature = -sound.curvature}};
+  share_pressure(material, g, shares);
+  return shares;
 }
 
 PotentialAt network_potential(const HyperelasticMaterial& material, const Tensor& H) {

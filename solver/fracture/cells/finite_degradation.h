@@ -41,10 +41,12 @@ struct FiniteShare {
 /// Shares of the energies that a cell with the factor g has: of W_m, of the network's, and of the volumetric one of its
 /// pressure.
 struct FiniteShares {
-  FiniteShare moderate, network, pressure;
+  FiniteShare moderate, network, pressure{};
   /// The part of the pressure's slope, and its derivative, by which it is lost as W_m is: without what it is lost
   /// faster.
-  FiniteShare pressure_as_moderate{};
+  struct Slope {
+    double slope = 0.0, curvature = 0.0;
+  } pressure_as_moderate{};
 };
 
 /// The shares in W = g (w W_m + (1 - w) N) + w r c U, w and r being functions of g and N the network's energy. A split

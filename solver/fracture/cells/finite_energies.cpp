@@ -33,10 +33,8 @@ double FiniteCells::dissipation(Index cell, const CellHistories& from, double g_
   if (!histories_.has(cell)) return 0.0;
   const double left_from = finite_shares(*material_[cell], g_from).moderate.value,
                left_to = finite_shares(*material_[cell], g_to).moderate.value;
-  const MaterialEnergy before = histories_.energy(cell, from), after = histories_.energy(cell, to);
-  const double flow = degraded_dissipation(left_from, left_to, after.dissipated - before.dissipated);
   const double volume = mesh_.cell_volume[cell] * (free_volume_.size() > 0 ? free_volume_[cell] : 1.0);
-  return volume * (flow + freed_energy(left_from, before.idle, left_to, after.idle));
+  return volume * degraded_heat(left_from, histories_.energy(cell, from), left_to, histories_.energy(cell, to));
 }
 
 // The moments of tractions in cells without a pressure count in the account alone: the rotation of the whole body is in
@@ -52,7 +50,7 @@ FiniteEnergies FiniteCells::energies(Index cell, const CellMechanics& mechanics,
   energies.of = g;
   energies.moments = drive ? 0.0 : moments / V;
   if (!histories_.has(cell)) return energies;
-  energies.locked = free_deformation(cell, mechanics).volume() * histories_.energy(cell, now).locked;
+  energies.locked = free_deformation(cell, mechanics).volume() * histories_.locked(cell, now);
   // A sheet that is torn fast is driven as the elastic one at the same stretches, and what only changes its volume as
   // without branches.
   const double sheared = energies.moderate + energies.branches;
@@ -92,7 +90,8 @@ DrivingAt FiniteCells::driving_energy(Index cell, const FiniteEnergies& at, doub
   const auto driving = [&](double whole_slope, double as_moderate) {
     return whole_slope - (1.0 - at.drive) * (whole_slope - as_moderate);
   };
-  const FiniteShare &of_pressure = by.pressure, &as_moderate = by.pressure_as_moderate;
+  const FiniteShare& of_pressure = by.pressure;
+  const FiniteShares::Slope& as_moderate = by.pressure_as_moderate;
   const double value = by.moderate.slope * moderate + by.network.slope * at.network - off.slope * at.compression +
                        driving(of_pressure.slope, as_moderate.slope) * pressure + faces;
   if (value <= 0.0) return {};

@@ -37,7 +37,7 @@ CellHistories FiniteHistories::virgin_histories() const {
   const Index n_cells = mesh_.n_cells(), n_places = n_cells + count_of(cells_of_own_);
   std::vector<std::size_t> sizes(as_size(n_places), 0);
   for (Index k = 0; k < n_places; ++k)
-    if (has(cell_of(k))) sizes[k] = law_size(k) + (k < n_cells ? gaps_.size(k) : 0);
+    if (has(place(k).cell)) sizes[k] = law_size(k) + (k < n_cells ? gaps_.size(k) : 0);
   return CellHistories(sizes);
 }
 
@@ -50,26 +50,25 @@ void FiniteHistories::start_from(const CellHistories& start, double duration) {
   left_.volumes = CellField<VolumeStress>(mesh_.n_cells());
   left_.gaps.assign(mesh_.cell_faces.size(), {});
   parallel_for(mesh_.n_cells(), [&](Index c) {
-    if (has(c)) gaps_.tell(c, start_.of(c).subspan(law_size(c)), RelaxingGaps::At::start, left_);
+    if (has(c)) gaps_.tell(c, gap_numbers(c, start_), RelaxingGaps::At::start, left_);
   });
 }
 
 void FiniteHistories::advance(FinitePlace at, const Tensor& H, CellHistories& to) const {
-  const Index place = number(at);
-  branches(at.cell).advance(H, before(at), to.of(place).first(law_size(place)));
-  to.gradient(place) = H;
+  const Index k = number(at);
+  branches(at.cell).advance(H, before(at), to.of(k).first(law_size(k)));
+  to.gradient(k) = H;
 }
 
 // The pressure is proportional to the volume strain u of U.
 void FiniteHistories::advance_gaps(Index cell, const std::vector<FaceGap>& gaps, double volume_change,
                                    CellHistories& to) const {
-  const std::size_t n = law_size(cell);
   const VolumeChanges now{.by_gradient = 0.0, .by_flux = material_[cell]->volume_strain(volume_change)};
-  gaps_.advance(cell, now, gaps, start_.of(cell).subspan(n), to.of(cell).subspan(n));
+  gaps_.advance(cell, now, gaps, gap_numbers(cell, start_), to.of(cell).subspan(law_size(cell)));
 }
 
 MaterialEnergy FiniteHistories::energy(Index cell, const CellHistories& histories) const {
-  const std::span<const double> law = law_numbers(cell, histories), gaps = histories.of(cell).subspan(law.size());
+  const std::span<const double> law = law_numbers(cell, histories), gaps = gap_numbers(cell, histories);
   const Tensor H = histories.gradient(cell);
   const double stored = branches(cell).over(H, {H, 0.0, law}).energy;
   const bool drives = material_[cell]->drive() == PronyDrive::stored;

@@ -33,13 +33,17 @@ class FiniteHistories {
   /// Names the cells of the sides that have a gradient of their own; before virgin_histories().
   void set_own_sides(std::vector<Index> cells);
   CellHistories virgin_histories() const;
+  FinitePlace place(Index number) const {
+    const Index own = number - mesh_.n_cells();
+    return own < 0 ? FinitePlace{number} : FinitePlace{cells_of_own_[own], own};
+  }
 
   /// Begins a step at these histories, which takes `duration` [s]; 0: holds them.
   void start_from(const CellHistories& start, double duration);
   /// What the place was at the start of the step; of a cell that has() one.
   PointBefore before(FinitePlace at) const {
-    const Index place = number(at);
-    return {start_.gradient(place), duration_, law_numbers(place, start_)};
+    const Index k = number(at);
+    return {start_.gradient(k), duration_, law_numbers(k, start_)};
   }
   const ViscousBranches& branches(Index cell) const {
     return is_plane_stress_ ? material_[cell]->branches() : material_[cell]->branches_of_cells();
@@ -57,13 +61,19 @@ class FiniteHistories {
   void advance_gaps(Index cell, const std::vector<FaceGap>& gaps, double volume_change, CellHistories& to) const;
   /// Energies of the branches and gaps of a cell, undamaged; `idle` or `driving` as the material says, whole.
   MaterialEnergy energy(Index cell, const CellHistories& histories) const;
+  /// That of the gaps which is stored beyond half the work of their tractions, alone.
+  double locked(Index cell, const CellHistories& histories) const {
+    return RelaxingGaps::locked(gap_numbers(cell, histories));
+  }
 
  private:
   Index number(FinitePlace at) const { return at.own < 0 ? at.cell : mesh_.n_cells() + at.own; }
-  Index cell_of(Index place) const { return place < mesh_.n_cells() ? place : cells_of_own_[place - mesh_.n_cells()]; }
-  std::size_t law_size(Index place) const { return branches(cell_of(place)).size(); }
-  std::span<const double> law_numbers(Index place, const CellHistories& histories) const {
-    return histories.of(place).first(law_size(place));
+  std::size_t law_size(Index number) const { return branches(place(number).cell).size(); }
+  std::span<const double> law_numbers(Index number, const CellHistories& histories) const {
+    return histories.of(number).first(law_size(number));
+  }
+  std::span<const double> gap_numbers(Index cell, const CellHistories& histories) const {
+    return histories.of(cell).subspan(law_size(cell));
   }
 
   const Mesh& mesh_;

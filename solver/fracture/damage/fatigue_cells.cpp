@@ -207,10 +207,8 @@ std::string FatigueWork::remark(const FatigueCells& fatigue, const FractureState
   said_ = true;
   return fmt::format(
       "at load {:.6g} the stored and the surface energy exceed the work by {:.0f} %: cracks grow at peaks of the load "
-      "at "
-      "which the work is not followed; take more parts of a cycle (fatigue.steps), and a load that is held at its "
-      "peaks "
-      "for a part of the cycle",
+      "at which the work is not followed; take more parts of a cycle (fatigue.steps), and a load that is held at its "
+      "peaks for a part of the cycle",
       state.load, 100.0 * missing / largest_);
 }
 

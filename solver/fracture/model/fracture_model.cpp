@@ -107,10 +107,9 @@ std::optional<VolumeLaw> of_relaxing(const Material& material, VolumeLaws& known
 std::optional<VolumeLaw> volume_law(const RegionModel& region, VolumeLaws& known) {
   const Material* material = region.material.get();
   if (material == nullptr) return VolumeLaw{.elasticity = region.elasticity};
-  if (material->is_finite_strain() && material->relaxing() == nullptr)
-    return VolumeLaw{.elasticity = material->elasticity()};
-  if (!material->has_linear_volume() && !material->is_finite_strain()) return std::nullopt;
   if (material->relaxing() != nullptr) return of_relaxing(*material, known);
+  if (material->is_finite_strain()) return VolumeLaw{.elasticity = material->elasticity()};
+  if (!material->has_linear_volume()) return std::nullopt;
   return VolumeLaw{.elasticity = region.elasticity};
 }
 

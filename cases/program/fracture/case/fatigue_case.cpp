@@ -39,8 +39,7 @@ FatigueCycles read_fatigue_cycles(const ConfigTable& root, const Materials& mate
   if (!materials.has_fatigue())
     throw table.error(
         "no damageable material has fatigue; give one fatigue = { law = \"asymptotic\", threshold = \"50 kJ/m^3\" }, "
-        "or leave "
-        "out [fatigue]");
+        "or leave out [fatigue]");
   if (const auto computed = table.find("computed_cycles"); computed && !(cycles.jump_tolerance > 0.0))
     throw computed->error("this belongs to jumps over cycles; give jump_tolerance, as in jump_tolerance = 0.02");
   return cycles;
