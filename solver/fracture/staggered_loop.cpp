@@ -14,7 +14,7 @@ namespace pfdm {
 namespace {
 
 // Largest numbers of FGMRES iterations, and of Newton's steps at finite strain.
-constexpr Index inner_iterations = 80, inner_steps = 6;
+constexpr Index inner_steps = 6;
 constexpr Index stuck_at_most = 20;
 // Successive iterations in which only the residual stiffness may carry the loads: the first ones are inexact.
 constexpr Index torn_at_most = 5;
@@ -62,6 +62,8 @@ struct Staggered::Loop {
   // With cohesive faces nothing else dissipates: Newton's method finds the load.
   bool follows_faces() const { return s.faces_.any() && std::isfinite(limits.dissipation); }
   bool follows_path() const { return !s.faces_.any() && std::isfinite(limits.dissipation); }
+  // Where a pressure is not found, cracks open and close at random from one iteration to the next.
+  Index inner_iterations() const { return s.unknowns_.pressure_cells.empty() ? 80 : 240; }
   bool ends() const {
     return outcome.converged || outcome.failed || outcome.collapsed || outcome.broke_too_much ||
            outcome.iterations >= s.settings_.maximum_iterations || (limits.may_be_cut && relaxation.goes_in_circles());
@@ -82,12 +84,12 @@ struct Staggered::Loop {
     const MomentumSolver::Tolerance tolerance{.reduction = 0.1,
                                               .ceiling = outcome.settled ? required : 1e-4,
                                               .floor = 0.1 * required,
-                                              .most_iterations = inner_iterations};
+                                              .most_iterations = inner_iterations()};
     Equilibrium equilibrium = follows_faces() ? s.follow_faces(start, faces_path, tolerance, state)
                                               : s.solve_momentum(start, state, tolerance, inner_steps);
     if (s.stiffness_.finite().any()) equilibrium = approach(tolerance, equilibrium);
     const bool halves = equilibrium.residual <= 0.5 * equilibrium.initial_residual;
-    stuck = halves || equilibrium.iterations < inner_iterations ? 0 : stuck + 1;
+    stuck = halves || equilibrium.iterations < tolerance.most_iterations ? 0 : stuck + 1;
     outcome.stuck = stuck > stuck_at_most;
     outcome.failed = !std::isfinite(equilibrium.residual) || outcome.stuck;
     outcome.residual = equilibrium.residual;

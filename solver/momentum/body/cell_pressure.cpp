@@ -79,6 +79,17 @@ void CellPressure::take_over(CellField<IsotropicElasticity>& moduli, const CellF
   weigh(g);
 }
 
+void CellPressure::bear_closed_cracks(CellField<IsotropicElasticity>& of_stress, const CellField<char>& relaxes) {
+  constexpr double rounding = 1e-9;
+  for (const Index c : unknowns_.pressure_cells) {
+    IsotropicElasticity& own = of_stress[c];
+    const double open = ratio_[c] * own.mu;
+    if ((relaxes.size() > 0 && relaxes[c] != 0) || own.lambda <= (1.0 + rounding) * open) continue;
+    modulus_[c] += own.lambda - open;
+    own.lambda = open;
+  }
+}
+
 void CellPressure::weigh(const CellField<double>& g) {
   for (const Index c : unknowns_.pressure_cells) counts_[c] = likeness(c, g);
 }

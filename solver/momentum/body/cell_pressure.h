@@ -50,7 +50,12 @@ class CellPressure {
   /// share of the relaxed material.
   void take_over(CellField<IsotropicElasticity>& moduli, const CellField<double>& g,
                  const CellField<IsotropicElasticity>& sound, const CellField<char>& relaxes);
-  /// The part of it that does not concern the moduli: at finite strain, whose laws know their own.
+  /// Reduces lambda_s in the moduli of the cells' own stress where a crack is closed, to 2.5 of its shear modulus
+  /// there, and leaves the rest to the pressure too: after take_over(). A closed crack has no shear stiffness that
+  /// would make the cell's divergence agree with that of the fluxes. `relaxes` as above; these cells are left as they
+  /// are.
+  void bear_closed_cracks(CellField<IsotropicElasticity>& of_stress, const CellField<char>& relaxes);
+  /// The part of take_over() that does not concern the moduli: at finite strain, whose laws know their own.
   void weigh(const CellField<double>& g);
   /// Pressures that are zero, for read().
   PressureField field() const;

@@ -12,6 +12,9 @@
 // Tangential displacements that alternate between such polyhedra have gradients without divergence, but cause forces on
 // skew faces; without stabilisation they grow without bounds. Such cells therefore use the full c, and c_t + 0.05 c_n
 // along the face between two of them in the jump term, which vanishes for a slip that is linear over the cells.
+//
+// Closed cracks in cells of any shape with a pressure have the same fault, and a pressure that varies along the crack
+// meets no stiffness there. Between two of them it is c_t + 0.2 c_n, c_n being that of the moderate lambda_s.
 
 #include "solver/momentum/faces/face_skeleton.h"
 
@@ -23,8 +26,7 @@ CellField<double> jump_shares(const Mesh& mesh, const Unknowns& unknowns);
 class PolyhedralJump {
  public:
   /// `shares` as above. For use while both exist.
-  PolyhedralJump(const FaceSkeleton& skeleton, const CellField<double>& shares)
-      : skeleton_(skeleton), share_(shares), liquidity_(skeleton.mesh.n_cells(), 0.0) {}
+  PolyhedralJump(const FaceSkeleton& skeleton, const CellField<double>& shares);
 
   /// Takes the moduli of the cells, before plane stress or pressures change them; `sound`: undamaged ones, empty: those
   /// of the zones.
@@ -46,7 +48,8 @@ class PolyhedralJump {
  private:
   const FaceSkeleton& skeleton_;
   const CellField<double>& share_;
-  CellField<double> liquidity_;  // 0 to 1: how closed (without shear stiffness) the crack of a polyhedron is
+  CellField<double> greatest_slip_;  // of a closed crack, over c along the normal; zero: in other cells
+  CellField<double> liquidity_;      // 0 to 1: how closed (without shear stiffness) the crack of such a cell is
 };
 
 }  // namespace pfdm

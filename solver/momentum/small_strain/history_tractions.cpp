@@ -93,7 +93,7 @@ void HistoryTractions::bear_gaps(const HistoryStress& history, const CellField<d
 }
 
 void HistoryTractions::find_linear(const std::vector<Vector>& u, Sweep& sweep) const {
-  sweep_faces(u, static_cast<IsotropicSweep&>(sweep), StressByHistory{stress_, moduli()});
+  sweep_faces(u, static_cast<IsotropicSweep&>(sweep), StressByHistory{stress_, of_stress()});
 }
 
 // n leads outwards from P and from sides, into N.
@@ -111,7 +111,7 @@ double HistoryTractions::free_volume_change(Index cell) const {
 
 Vector HistoryTractions::own_traction(Index cell, const Vector& n, const Vector& d, std::size_t turn,
                                       const IsotropicSweep& s) const {
-  return traction(cell, n, d, turn, s, StressByHistory{stress_, moduli()});
+  return traction(cell, n, d, turn, s, StressByHistory{stress_, of_stress()});
 }
 
 double HistoryTractions::stress_across(Index cell, const Tensor& strain, const Sweep& sweep) const {
@@ -142,7 +142,7 @@ void HistoryTractions::add_histories(const FaceMoves& moves, CellMechanics& resu
 Vector HistoryTractions::bonded_strain(Index cell, const Vector& n, std::size_t turn, const Sweep& sweep) const {
   if (bonded_at(turn) < 0) return Vector::Zero();
   const Tensor beyond = gradient_at(cell, turn, sweep) - sweep.gradients[cell];
-  const Vector by_shear = IsotropicStress{moduli()}(cell, beyond, n) / moduli()[cell].mu;
+  const Vector by_shear = IsotropicStress{of_stress()}(cell, beyond, n) / moduli()[cell].mu;
   return momentum_faces::scale(1.0 / gaps_[cell].by_shear, 1.0, n, by_shear);
 }
 

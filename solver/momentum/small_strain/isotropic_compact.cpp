@@ -49,7 +49,7 @@ double IsotropicTractions::lag(std::size_t i, const Tensor& change) const {
   const Side& side = skeleton_.sides[i];
   if (skeleton_.mesh.is_interior(side.face)) return 0.0;
   const double free = side.n.dot(skeleton_.unknowns.free_within(side.node) * side.n);
-  return free * side.n.dot(stress(moduli_[side.cell], change) * side.n) / side_values_[i].a_n;
+  return free * side.n.dot(stress(of_stress_[side.cell], change) * side.n) / side_values_[i].a_n;
 }
 
 double IsotropicTractions::side_flux(std::size_t i, const Vector& u_f, const IsotropicSweep& s) const {

@@ -49,6 +49,8 @@ void IsotropicTractions::set_moduli(const CellField<IsotropicElasticity>& moduli
   jump_.renew(moduli_, sound);
   condense();
   cells_.take_over(moduli_, g, sound, relaxes);
+  of_stress_ = moduli_;
+  cells_.bear_closed_cracks(of_stress_, relaxes);
   find_initial_stress();
 }
 
@@ -71,7 +73,8 @@ void IsotropicTractions::condense() {
 void IsotropicTractions::find_initial_stress() {
   if (!eigenstrain_.any() || is_plane_stress()) return;
   initial_stress_ = CellField<Tensor>(moduli_.size());
-  parallel_for(moduli_.size(), [&](Index c) { initial_stress_[c] = -stress(moduli_[c], to_tensor(eigenstrain_[c])); });
+  parallel_for(moduli_.size(),
+               [&](Index c) { initial_stress_[c] = -stress(of_stress_[c], to_tensor(eigenstrain_[c])); });
 }
 
 // Within the plane in plane stress: the stress does not depend on that across it.
@@ -88,7 +91,7 @@ void IsotropicTractions::extrapolate_eigenstrains() {
 
 Vector IsotropicTractions::initial_traction(Index cell, const Vector& n, std::size_t turn) const {
   if (eigenstrain_changes_.empty()) return initial_stress_[cell] * n;
-  return (initial_stress_[cell] - stress(moduli_[cell], eigenstrain_changes_[turn])) * n;
+  return (initial_stress_[cell] - stress(of_stress_[cell], eigenstrain_changes_[turn])) * n;
 }
 
 void IsotropicTractions::set_coefficients() {
@@ -129,7 +132,7 @@ void IsotropicTractions::reconstruct(const std::vector<Vector>& u, IsotropicSwee
 }
 
 void IsotropicTractions::find_linear(const std::vector<Vector>& u, Sweep& sweep) const {
-  sweep_faces(u, of(sweep), IsotropicStress{moduli_});
+  sweep_faces(u, of(sweep), IsotropicStress{of_stress_});
 }
 
 bool IsotropicTractions::add_constant(Sweep& s) const {
@@ -167,7 +170,7 @@ Vector IsotropicTractions::give(std::size_t i, const Vector& v) const {
 
 Vector IsotropicTractions::own_traction(Index cell, const Vector& n, const Vector& d, std::size_t turn,
                                         const IsotropicSweep& s) const {
-  return traction(cell, n, d, turn, s, IsotropicStress{moduli_});
+  return traction(cell, n, d, turn, s, IsotropicStress{of_stress_});
 }
 
 // Equal tractions on both sides: (a + b) u_f = a (u_P + G_P d_P) + b (u_N + G_N d_N) + (sigma_N - sigma_P) n.
@@ -208,7 +211,7 @@ Tensor IsotropicTractions::with_strain_across(Index cell, const Tensor& gradient
 
 double IsotropicTractions::stress_across(Index cell, const Tensor& strain, const Sweep& sweep) const {
   if (is_plane_stress()) return 0.0;
-  const double by_strain = moduli_[cell].lambda * strain.trace() + of(sweep).pressure.mean(cell);
+  const double by_strain = of_stress_[cell].lambda * strain.trace() + of(sweep).pressure.mean(cell);
   return eigenstrain_.any() ? by_strain + plane_normal().dot(initial_stress_[cell] * plane_normal()) : by_strain;
 }
 

@@ -136,7 +136,8 @@ class IsotropicTractions : public SmallTractions {
   }
   // a over that of sides that are not bonded.
   double stiffer_at(std::size_t turn) const { return bonded_at(turn) < 0 ? 1.0 : BondedSides::stiffer; }
-  const CellField<IsotropicElasticity>& moduli() const { return moduli_; }  // as in the traction, and
+  const CellField<IsotropicElasticity>& moduli() const { return moduli_; }
+  const CellField<IsotropicElasticity>& of_stress() const { return of_stress_; }
   double jump_modulus(Index cell) const { return jump_.modulus(cell, moduli_[cell]); }
 
   CellField<StrainAcross> strain_across_;  // of plane stress, else empty
@@ -186,7 +187,8 @@ class IsotropicTractions : public SmallTractions {
   double lag(std::size_t side, const Tensor& change) const;
   double side_flux(std::size_t side, const Vector& u_f, const IsotropicSweep& s) const;
 
-  CellField<IsotropicElasticity> moduli_;
+  CellField<IsotropicElasticity> moduli_;     // as faces and preconditioner have them, and
+  CellField<IsotropicElasticity> of_stress_;  // the cells' stress, which leaves more of closed cracks to the pressure
   PolyhedralJump jump_;
   BondedSides bonded_;
   CellField<Tensor> initial_stress_;         // -C eps* [Pa], condensed in plane stress; empty without eigenstrains

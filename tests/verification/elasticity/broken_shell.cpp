@@ -80,6 +80,7 @@ struct Shell {
   double g;
   bool closed;
   Cells cells = Cells::tetrahedra_and_prisms;
+  double poisson_ratio = 0.44;  // of the matrix
 
   // Polyhedra reach from the middle of one layer to that of the next.
   double lower() const { return 1.0 + (first_broken - (cells == Cells::polyhedra ? 0.5 : 0.0)) * layer_thickness; }
@@ -121,7 +122,8 @@ struct ShellErrors {
 };
 
 ShellErrors errors_of(const Shell& shell) {
-  const IsotropicElasticity glass = from_young_poisson(70e9, 0.3), sylgard = from_young_poisson(75e6, 0.44);
+  const IsotropicElasticity glass = from_young_poisson(70e9, 0.3),
+                            sylgard = from_young_poisson(75e6, shell.poisson_ratio);
   const EnergySplit split = energy_split("volumetric_deviatoric");
   const double closure = shell.closed ? 1.0 : 0.0;
   const IsotropicElasticity broken = split.secant(sylgard, shell.g, closure);
@@ -224,6 +226,22 @@ TEST(BrokenShellOfPrisms, SlipsWithinAndLoadsTheSphereAsInTheClosedForm) {
     EXPECT_LE(e.stress_beyond, 2e-3);
     EXPECT_LE(e.iterations, 147);
   }
+}
+
+// With a pressure prisms do not slip.
+TEST(BrokenShellNearlyIncompressible, ClosedLoadsTheSphereAsInTheClosedForm) {
+  for (const double poisson_ratio : {0.49, 0.4995})
+    for (const Cells cells : {Cells::tetrahedra_and_prisms, Cells::polyhedra})
+      for (const double g : {1e-2, 1e-6}) {
+        SCOPED_TRACE(fmt::format("nu = {}, g = {}", poisson_ratio, g));
+        const ShellErrors e = errors_of({1, g, true, cells, poisson_ratio});
+        EXPECT_LE(e.core_traction, 2.5e-3);
+        EXPECT_LE(e.displacement, 5e-4);
+        EXPECT_LE(e.shell_strain, cells == Cells::polyhedra ? 0.13 : 0.03);
+        EXPECT_LE(e.stress_beyond, 2e-4);
+        EXPECT_LE(e.stress_within, 2.8e-3);
+        EXPECT_LE(e.iterations, g < 1e-3 ? 820 : 170);
+      }
 }
 
 }  // namespace
