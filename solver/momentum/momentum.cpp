@@ -1,5 +1,6 @@
 #include "solver/momentum/momentum.h"
 
+#include "solver/momentum/bending/slender_layers.h"
 #include "solver/momentum/body/cell_pressure.h"
 #include "solver/momentum/finite_strain/finite_tractions.h"
 #include "solver/momentum/small_strain/history_tractions.h"
@@ -93,6 +94,8 @@ double MomentumOperator::energy_remembered() const {
     return law.memory.share > 0.0 ? skeleton_->mesh.cell_volume[c] * law.stress.squaredNorm() / law.face.mu : 0.0;
   });
 }
+
+bool MomentumOperator::is_slender() const { return !slender_layers(skeleton_->mesh, skeleton_->unknowns).empty(); }
 
 void MomentumOperator::relax_flat_cells() { cells_->relax_flat_cells(); }
 

@@ -25,7 +25,7 @@ set(rooms
     "solver/scalar: physics mesh solver solver/linear"
     "solver/heat: physics mesh solver solver/linear solver/scalar"
     "solver/momentum/body: physics mesh solver solver/linear solver/scalar"
-    "solver/momentum/bending: physics mesh solver solver/linear solver/scalar solver/momentum/body"
+    "solver/momentum/bending: physics mesh mesh/search solver solver/linear solver/scalar solver/momentum/body"
     "solver/momentum/faces: physics mesh solver solver/linear solver/scalar solver/momentum/body solver/momentum/bending"
     "solver/momentum/small_strain: physics mesh solver solver/linear solver/scalar solver/momentum/body solver/momentum/faces"
     "solver/momentum/finite_strain: physics mesh solver solver/linear solver/scalar solver/momentum/body solver/momentum/bending

@@ -31,7 +31,7 @@ struct LayerLine {
 class LayerLines {
  public:
   LayerLines(const Mesh& mesh, const Unknowns& unknowns)
-      : mesh_(mesh), unknowns_(unknowns), ends_(ends()), pairs_(mesh.n_cells()) {
+      : mesh_(mesh), unknowns_(unknowns), ends_(body_ends(mesh, unknowns)), pairs_(mesh.n_cells()) {
     for (Index c = 0; c < mesh.n_cells(); ++c) {
       lines_.emplace_back();
       pairs_[c] = pairs_of(c);
@@ -60,7 +60,7 @@ class LayerLines {
           sum += (mesh_.face_centre[far] - mesh_.face_centre[near]).norm();
           (near == ends[0] ? ends[0] : ends[1]) = far;
         });
-    const auto is_mirror = [&](Index face) { return !mesh_.is_interior(face) && ends_[face] == End::mirror; };
+    const auto is_mirror = [&](Index face) { return !mesh_.is_interior(face) && ends_[face] == BodyEnd::mirror; };
     return is_mirror(ends[0]) != is_mirror(ends[1]) ? 2.0 * sum : sum;
   }
   double length(Index cell, int axis) const {
@@ -70,26 +70,6 @@ class LayerLines {
 
  private:
   using Step = std::pair<Index, int>;
-
-  enum class End : char { free, mirror, held };
-
-  FaceField<End> ends() const {
-    FaceField<End> end(mesh_.n_faces(), End::free);
-    for (const PatchCondition& on : unknowns_.conditions) {
-      using Kind = BoundaryCondition::Kind;
-      const auto& held = on.condition.displacement_prescribed;
-      const auto is_held_along = [&](std::size_t i) {  // or nothing moves there: across a plane mesh
-        return held[i] || std::abs(unknowns_.plane_normal[i]) > 0.999;
-      };
-      const bool is_held =
-          on.condition.kind == Kind::components && is_held_along(0) && is_held_along(1) && is_held_along(2);
-      if (on.condition.kind != Kind::symmetry && !is_held) continue;
-      const End kind = is_held ? End::held : End::mirror;
-      const Patch& patch = mesh_.patches[on.patch];
-      for (Index f = patch.first_face; f < patch.first_face + patch.n_faces; ++f) end[f] = kind;
-    }
-    return end;
-  }
 
   // Pairs of opposite faces, those within the plane of a plane mesh first; the pair across it is left out.
   std::array<OppositeFaces, 3> pairs_of(Index cell) const {
@@ -108,9 +88,9 @@ class LayerLines {
     std::vector<Step> steps{{cell, axis}};
     LayerLine line;
     for (const std::size_t side : {std::size_t{0}, std::size_t{1}}) {
-      const End end = follow(cell, pairs_[cell][axis].face[side], steps);
-      line.n_mirrors += end == End::mirror ? 1 : 0;
-      line.n_held += end == End::held ? 1 : 0;
+      const BodyEnd end = follow(cell, pairs_[cell][axis].face[side], steps);
+      line.n_mirrors += end == BodyEnd::mirror ? 1 : 0;
+      line.n_held += end == BodyEnd::held ? 1 : 0;
     }
     for (const auto& [c, a] : steps) {
       line.n += 1.0;
@@ -120,18 +100,18 @@ class LayerLines {
   }
 
   // Adds the cells beyond a face.
-  End follow(Index cell, Index face, std::vector<Step>& steps) const {
+  BodyEnd follow(Index cell, Index face, std::vector<Step>& steps) const {
     const Index first = cell;
     while (mesh_.is_interior(face) && !unknowns_.is_split(face)) {
       cell = mesh_.across(face, cell);
-      if (cell == first) return End::held;
+      if (cell == first) return BodyEnd::held;
       const int axis = axis_of(cell, face);
-      if (axis < 0) return End::held;
+      if (axis < 0) return BodyEnd::held;
       steps.emplace_back(cell, axis);
       const auto& ends = pairs_[cell][axis].face;
       face = ends[0] == face ? ends[1] : ends[0];
     }
-    return mesh_.is_interior(face) ? End::free : ends_[face];
+    return mesh_.is_interior(face) ? BodyEnd::free : ends_[face];
   }
   int axis_of(Index cell, Index face) const {
     for (int a = 0; a < n_axes(cell); ++a)
@@ -142,7 +122,7 @@ class LayerLines {
 
   const Mesh& mesh_;
   const Unknowns& unknowns_;
-  FaceField<End> ends_;
+  FaceField<BodyEnd> ends_;
   std::vector<std::array<OppositeFaces, 3>> pairs_;
   std::vector<std::array<LayerLine, 3>> lines_;
 };
@@ -190,6 +170,24 @@ void over_layers(const Mesh& mesh, const Unknowns& unknowns, const See& see) {
 }
 
 }  // namespace
+
+FaceField<BodyEnd> body_ends(const Mesh& mesh, const Unknowns& unknowns) {
+  FaceField<BodyEnd> end(mesh.n_faces(), BodyEnd::free);
+  for (const PatchCondition& on : unknowns.conditions) {
+    using Kind = BoundaryCondition::Kind;
+    const auto& held = on.condition.displacement_prescribed;
+    const auto is_held_along = [&](std::size_t i) {  // or nothing moves there: across a plane mesh
+      return held[i] || std::abs(unknowns.plane_normal[i]) > 0.999;
+    };
+    const bool is_held =
+        on.condition.kind == Kind::components && is_held_along(0) && is_held_along(1) && is_held_along(2);
+    if (on.condition.kind != Kind::symmetry && !is_held) continue;
+    const Patch& patch = mesh.patches[on.patch];
+    for (Index f = patch.first_face; f < patch.first_face + patch.n_faces; ++f)
+      end[f] = is_held ? BodyEnd::held : BodyEnd::mirror;
+  }
+  return end;
+}
 
 Index opposite_face(const Mesh& mesh, Index cell, Index face) {
   const CellShape shape = mesh.shape[cell];

@@ -2,6 +2,8 @@
 
 #include "solver/momentum/bending/bending_layers.h"
 #include "solver/momentum/bending/cubic_fit.h"
+#include "solver/momentum/bending/fit_surroundings.h"
+#include "solver/momentum/bending/slender_layers.h"
 #include "solver/parallel.h"
 
 #include <algorithm>
@@ -54,8 +56,15 @@ Functionals functionals_of(const Mesh& mesh, const CubicFaces::Side& side, const
 }
 
 // The cell's edges, as vectors between the centres of opposite faces; across a
-// plane mesh its normal. Empty where the cell is too distorted.
-std::optional<Tensor> edges_of(const Mesh& mesh, Index cell, const Vector& plane_normal) {
+// plane mesh its normal; of a prism those of the box that it halves, `along` the body and across it. Empty where the
+// cell is too distorted.
+std::optional<Tensor> edges_of(const Mesh& mesh, Index cell, const Vector& plane_normal, const Vector& along) {
+  if (mesh.shape[cell] == CellShape::wedge) {
+    const Vector across = plane_normal.cross(along);
+    Tensor edges;
+    edges << 2.0 * mean_chord(mesh, cell, along) * along, 2.0 * mean_chord(mesh, cell, across) * across, plane_normal;
+    return edges;
+  }
   Tensor edges = Tensor::Zero();
   int n = 0;
   for (const Index f : mesh.faces_of_cell(cell)) {
@@ -69,60 +78,6 @@ std::optional<Tensor> edges_of(const Mesh& mesh, Index cell, const Vector& plane
   if (n < 3 || std::abs(directions.determinant()) < 0.1) return std::nullopt;
   return edges;
 }
-
-class FitSurroundings {
- public:
-  FitSurroundings(const Mesh& mesh, const Unknowns& unknowns) : mesh_(mesh), unknowns_(unknowns) {}
-
-  std::vector<Index> of(Index cell) {
-    cells_.clear();
-    nodes_.clear();
-    corners_.clear();
-    for (const Index f : mesh_.faces_of_cell(cell)) {
-      if (const Index other = beyond(cell, f); other >= 0) cells_.push_back(other);
-    }
-    const std::vector<Index> ring = cells_;
-    for (const Index f : mesh_.faces_of_cell(cell))
-      if (const Index other = across(cell, f); other >= 0) extend(cell, other, f);
-    std::sort(corners_.begin(), corners_.end());
-    for (std::size_t i = 0; i + 1 < corners_.size(); ++i)
-      if (corners_[i] == corners_[i + 1]) cells_.push_back(corners_[i]);
-    unite(cells_);
-    std::erase(cells_, cell);
-    unite(nodes_);
-    cells_.insert(cells_.end(), nodes_.begin(), nodes_.end());
-    return cells_;
-  }
-
- private:
-  static void unite(std::vector<Index>& list) {
-    std::sort(list.begin(), list.end());
-    list.erase(std::unique(list.begin(), list.end()), list.end());
-  }
-  Index across(Index cell, Index face) const {
-    if (!mesh_.is_interior(face) || unknowns_.node_beside(mesh_, cell, face) >= 0) return -1;
-    return mesh_.across(face, cell);
-  }
-  // The cell across a face, or else its node is added.
-  Index beyond(Index cell, Index face) {
-    if (const Index node = unknowns_.node_beside(mesh_, cell, face); node >= 0) nodes_.push_back(node);
-    return across(cell, face);
-  }
-  // Beyond the neighbour across `face`.
-  void extend(Index cell, Index neighbour, Index face) {
-    const Index opposite = opposite_face(mesh_, neighbour, face);
-    for (const Index f : mesh_.faces_of_cell(neighbour)) {
-      if (f == face) continue;
-      const Index other = beyond(neighbour, f);
-      if (other < 0 || other == cell) continue;
-      (f == opposite ? cells_ : corners_).push_back(other);
-    }
-  }
-
-  const Mesh& mesh_;
-  const Unknowns& unknowns_;
-  std::vector<Index> cells_, nodes_, corners_;
-};
 
 // The axis of the cell's edges, 0 to 2, along which a vector in their units is
 // longest.
@@ -177,8 +132,9 @@ void add_coefficients(const Functionals& at_face, const CubicFit& fit, const Ten
 
 // Empty where the cell is too distorted, or its samples do not tell linear
 // fields.
-std::optional<LocalFit> fit_of(const Mesh& mesh, const Unknowns& unknowns, Index cell, FitSurroundings& around) {
-  const std::optional<Tensor> edges = edges_of(mesh, cell, unknowns.plane_normal);
+std::optional<LocalFit> fit_of(const Mesh& mesh, const Unknowns& unknowns, Index cell, const Vector& along,
+                               FitSurroundings& around) {
+  const std::optional<Tensor> edges = edges_of(mesh, cell, unknowns.plane_normal, along);
   if (!edges) return std::nullopt;
   const Tensor to_units = edges->inverse();
   std::vector<Index> samples = around.of(cell);
@@ -194,7 +150,10 @@ std::optional<LocalFit> fit_of(const Mesh& mesh, const Unknowns& unknowns, Index
 CubicFaces::CubicFaces(const Mesh& mesh, const Unknowns& unknowns, const std::vector<Side>& sides)
     : n_cells_(mesh.n_cells()) {
   if (unknowns.plane_normal.isZero() || unknowns.is_axisymmetric()) return;
-  const std::vector<char> bends = bending_cells(mesh, unknowns);
+  std::vector<char> bends = bending_cells(mesh, unknowns);
+  const CellField<Vector> along = bending_prisms(mesh, unknowns);
+  for (Index c = 0; c < mesh.n_cells(); ++c)
+    if (!along[c].isZero()) bends[c] = 1;
   if (std::none_of(bends.begin(), bends.end(), [](char b) { return b != 0; })) return;
   std::vector<std::vector<std::size_t>> of_cell(mesh.n_cells());
   for (std::size_t k = 0; k < sides.size(); ++k) of_cell[sides[k].cell].push_back(k);
@@ -202,7 +161,7 @@ CubicFaces::CubicFaces(const Mesh& mesh, const Unknowns& unknowns, const std::ve
   FitSurroundings around(mesh, unknowns);
   for (Index c = 0; c < mesh.n_cells(); ++c) {
     if (bends[c] == 0) continue;
-    if (const auto local = fit_of(mesh, unknowns, c, around)) {
+    if (const auto local = fit_of(mesh, unknowns, c, along[c], around)) {
       has_fit_[c] = 1;
       cells_.push_back({.cell = c,
                         .first_sample = samples_.size(),

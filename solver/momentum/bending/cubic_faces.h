@@ -1,16 +1,16 @@
 #pragma once
-// Faces of third order where few layers of hexahedra bend, in plane meshes (plane strain or stress). With the gradients
-// of one ring (momentum.h) the slip between the faces across a beam and those along it is of first order in the
-// curvature's derivative. Cells of length h_x in n layers of a body of thickness h bend as if it were stiffer by 1.5 (1
+// Faces of third order where few layers of hexahedra or prisms bend, in plane meshes (plane strain or stress). With the
+// gradients of one ring (momentum.h) the slip between the faces across a beam and those along it is of first order in
+// the curvature's derivative. Cells of length h_x in n layers of a body of thickness h bend as if it were stiffer
+// by 1.5 (1
 // - nu) (h_x/h)^2 and softer by (3 - 2/n)/n^2. Here each cell fits a cubic to its surroundings. Its faces take the mean
 //   of the cubic's gradient over the face in place of the cell's gradient. They take its displacement at the face's
 //   centre in place of the linear one. A field that is cubic, as that of a beam under an end load (Barre de
 //   Saint-Venant), then is exact, whatever the shape of the cells. After the third-order cell-centred scheme of
 //   Batistic, Castrillo, Cardiff, arXiv 2601.18417.
 //
-// Samples: the cells of the same zone within two faces, the second face being opposite to the first or reached in two
-// ways (else a notch may lie between), and the nodes of the cell and of its neighbours. Weight |xi|^-6, xi being
-// distances in units of the cell's edges. What the samples do not tell from lower powers is left out.
+// Samples: fit_surroundings.h. Weight |xi|^-6, xi being distances in units of the cell's edges. What the samples do not
+// tell from lower powers is left out.
 //
 // Damage: the fit counts as much as the stiffness factors of its cells agree, none if one has less than three quarters
 // of another's. A broken layer thus remains as exact as it is with the gradients of one ring.
@@ -35,7 +35,8 @@ class CubicFaces {
   };
 
   CubicFaces() = default;
-  /// Fits for the given sides of cells whose layers bend (bending_layers.h); none in space or about an axis.
+  /// Fits for the given sides of cells whose layers bend (bending_layers.h, slender_layers.h); none in space or about
+  /// an axis.
   CubicFaces(const Mesh& mesh, const Unknowns& unknowns, const std::vector<Side>& sides);
 
   bool any() const { return !cells_.empty(); }

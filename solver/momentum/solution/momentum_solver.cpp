@@ -35,6 +35,7 @@ std::vector<FaceSpring> by_secants(std::vector<FaceSpring> springs) {
 MomentumSolver::MomentumSolver(const Mesh& mesh, const Unknowns& unknowns, const LinearSolver* linear)
     : unknowns_(unknowns),
       operator_(mesh, unknowns),
+      is_slender_(operator_.is_slender()),
       preconditioner_(solver_for(unknowns, linear).make(mesh, unknowns)),
       strain_modes_(unknowns.has_free_strains() ? std::make_unique<FreeStrainModes>(mesh, unknowns, linear) : nullptr) {
 }
@@ -195,13 +196,15 @@ Equilibrium MomentumSolver::solve(double t, const Tolerance& tolerance, std::vec
       .constrain = [&](std::vector<Vector>& x) { operator_.prescribe(t, x); },
       .scale = scale_,
       .restart_length = restart_length(),
-      .stores_doubles = operator_.is_of_third_order(),
+      .stores_doubles = has_long_cycles(),
       .good_enough = tolerance.good_enough * reference};
   const auto target = [&](double initial) {
     return std::max(tolerance.floor * reference,
                     std::min(tolerance.ceiling * reference, tolerance.reduction * initial));
   };
-  const KrylovResult result = solve_fgmres(problem, load, u, target, tolerance.most_iterations);
+  const Index most =
+      is_slender_ ? std::max(tolerance.most_iterations, problem.restart_length) : tolerance.most_iterations;
+  const KrylovResult result = solve_fgmres(problem, load, u, target, most);
   stale_.was_used(result.converged);
   return {.converged = result.converged,
           .iterations = result.iterations,
@@ -213,9 +216,11 @@ Equilibrium MomentumSolver::solve(double t, const Tolerance& tolerance, std::vec
 // iterations with cycles of 40, 82 with 200, in double precision).
 Index MomentumSolver::restart_length() const {
   const Index usual = pressure_compliance_.empty() ? 40 : 80;
-  if (!operator_.is_of_third_order()) return usual;
+  if (!has_long_cycles()) return usual;
   constexpr Index longest = 200, most_stored = 1500000;  // pairs of vectors of 24 bytes: 72 MB
   return std::clamp(most_stored / n_nodes(), usual, longest);
 }
+
+bool MomentumSolver::has_long_cycles() const { return is_slender_ || operator_.is_of_third_order(); }
 
 }  // namespace pfdm

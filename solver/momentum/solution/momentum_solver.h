@@ -62,7 +62,7 @@ class MomentumSolver {
     double reduction = 0.0;
     double ceiling = 1e-8;
     double floor = 1e-8;
-    Index most_iterations = 2000;  ///< of FGMRES
+    Index most_iterations = 2000;  ///< of FGMRES; in slender bodies at least a cycle
     double good_enough = 0.0;      ///< a residual from which on slow convergence ends the solution
   };
   Equilibrium solve(double t, const Tolerance& tolerance, std::vector<Vector>& u);
@@ -89,11 +89,13 @@ class MomentumSolver {
   bool is_due() const { return stale_.state() == StalePreconditioner::State::due; }
   void add_body_force(std::vector<Vector>& load) const;
   Index restart_length() const;
+  bool has_long_cycles() const;
   std::vector<Vector> load_vector(double t) const;
   double reference_norm(double t, const std::vector<Vector>& load);
 
   const Unknowns& unknowns_;
   MomentumOperator operator_;
+  bool is_slender_ = false;
   std::vector<Vector> body_force_;   // on the cells [N]; may be empty
   std::vector<Vector> held_forces_;  // of the split faces [N]; may be empty
   std::unique_ptr<Preconditioner> preconditioner_;

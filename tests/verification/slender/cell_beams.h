@@ -1,0 +1,29 @@
+#pragma once
+// Beams along x, y across and z over their width, of boxes that are cut into prisms or tetrahedra.
+
+#include "mesh/mesh.h"
+
+#include <array>
+
+namespace pfdm::verification {
+
+enum class BoxCut {
+  prisms_across,        ///< triangles on the surfaces y
+  prisms_within,        ///< triangles in the planes z, as in plane meshes
+  prisms_along,         ///< triangles in the planes x
+  six_tetrahedra,       ///< about one diagonal
+  polyhedra_of_prisms,  ///< dual to prisms_within
+  polyhedra,            ///< dual to six_tetrahedra
+};
+
+struct CellBeam {
+  BoxCut cut = BoxCut::prisms_within;
+  std::array<Index, 3> boxes{1, 1, 1};
+  Vector size = Vector::Ones();  ///< [m]
+  bool alternates = false;       ///< diagonals of prisms turn from box to box
+};
+
+/// Of one region; patches as of a box.
+Mesh make_cell_beam(const CellBeam& beam);
+
+}  // namespace pfdm::verification
