@@ -2,11 +2,14 @@
 
 #include "physics/quantity_text.h"
 #include "solver/momentum/bending/bending_layers.h"
+#include "solver/momentum/bending/slender_layers.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
+#include <vector>
 
 namespace pfdm {
 namespace {
@@ -51,24 +54,82 @@ std::string words_on(const BendingError& worst, const std::string& why) {
       length(at.lone, 3), 100.0 * bearable);
 }
 
+std::string words_on_layers(const Mesh& mesh, Index cell, const BendingLayers& at, std::string_view cells) {
+  return fmt::format("region \"{}\": {:.3g} layer{} of {} {} long across {}: where they bend, their stiffness is ",
+                     mesh.region_names[mesh.region[cell]], at.n, at.n == 1.0 ? "" : "s", cells,
+                     quantity_text(at.length, "m", 3), quantity_text(at.thickness, "m", 3));
+}
+
+std::string_view name_of(SlenderCells cells) {
+  if (cells == SlenderCells::tetrahedra) return "tetrahedra";
+  return cells == SlenderCells::polyhedra ? "polyhedra" : "prisms";
+}
+
+struct Warned {
+  double error = 0.0;
+  std::string words;
+};
+
+// What the formulas are wrong by, a third, is left aside.
+constexpr double bearable_of_others = 0.04;
+
+// Prisms whose gradients are those of one ring, tetrahedra and polyhedra: the error that a fifth of the surface
+// exceeds.
+std::optional<Warned> warn_of_others(const Mesh& mesh, const Unknowns& unknowns) {
+  std::vector<SlenderLayers> all = slender_layers(mesh, unknowns);
+  if (all.empty()) return std::nullopt;
+  const auto error_of = [&](const SlenderLayers& at) {
+    return at.error(unknowns.sound[unknowns.zone[at.cell]].poisson_ratio());
+  };
+  const auto worst = all.begin() + count_of(all) * 4 / 5;
+  std::ranges::nth_element(all, worst, {}, [&](const SlenderLayers& at) { return std::abs(error_of(at)); });
+  const double error = error_of(*worst);
+  if (std::abs(error) <= bearable_of_others) return std::nullopt;
+  const bool is_rough = worst->of == SlenderCells::polyhedra || worst->layers.n < 2.5;
+  return Warned{error, words_on_layers(mesh, worst->cell, worst->layers, name_of(worst->of)) +
+                           fmt::format("about {:.0f} % too {} (as measured with regular cells; within a {}). "
+                                       "Hexahedra bend as they should ([mesh])",
+                                       100.0 * std::abs(error), error > 0.0 ? "high" : "low",
+                                       is_rough ? "factor of two" : "third")};
+}
+
+// Prisms that fit cubics.
+std::optional<std::string> warn_of_long_prisms(const Mesh& mesh, const Unknowns& unknowns) {
+  constexpr double longest = 1.2;
+  for (const SlenderLayers& at : slender_layers(mesh, unknowns))
+    if (at.layers.length > longest * at.layers.thickness)
+      return words_on_layers(mesh, at.cell, at.layers, "triangles") +
+             fmt::format(
+                 "not known (cells longer than the body is thick: 1.5 times 18 % too low to 3 % too high, twice "
+                 "38 % too low to 48 % too high, by nu and the diagonals). For 5 %: cells up to {} long "
+                 "([mesh])",
+                 quantity_text(at.layers.thickness, "m", 2));
+  return std::nullopt;
+}
+
+std::optional<Warned> warn_of_hexahedra(const Mesh& mesh, const Unknowns& unknowns, const std::string& why) {
+  const auto worst =
+      largest_bending_error(mesh, unknowns, why.empty() ? std::optional(LinesIn::space_and_plane) : std::nullopt);
+  if (!worst || std::abs(worst->error) <= bearable) return std::nullopt;
+  return Warned{worst->error, words_on_layers(mesh, worst->cell, worst->layers, "hexahedra") +
+                                  fmt::format("about {:.0f} % {}", 100.0 * std::abs(worst->error),
+                                              words_on(*worst, why.empty() ? "one cell across" : why))};
+}
+
 }  // namespace
 
 std::optional<std::string> bending_warning(const Mesh& mesh, const FractureModel& model) {
   const bool is_plane = std::ranges::any_of(model.boundary, [](const auto& on) { return is_front_or_back(on); });
   const std::string why = reason(model);
-  const bool may_have_lines = why.empty();
-  if (may_have_lines && is_plane && !model.is_finite_strain() && !model.has_eigenstrain()) return std::nullopt;
   const Unknowns unknowns = place_unknowns(mesh, elastic_body(model));
-  const auto worst =
-      largest_bending_error(mesh, unknowns, may_have_lines ? std::optional(LinesIn::space_and_plane) : std::nullopt);
-  if (!worst || std::abs(worst->error) <= bearable) return std::nullopt;
-  const BendingLayers& at = worst->layers;
-  return fmt::format(
-      "region \"{}\": {:g} layer{} of hexahedra {} long across {}: where they bend, their stiffness is about {:.0f} % "
-      "{}",
-      mesh.region_names[mesh.region[worst->cell]], at.n, at.n == 1.0 ? "" : "s", quantity_text(at.length, "m", 3),
-      quantity_text(at.thickness, "m", 3), 100.0 * std::abs(worst->error),
-      words_on(*worst, why.empty() ? "one cell across" : why));
+  if (why.empty() && is_plane && !model.is_finite_strain() && !model.has_eigenstrain())
+    return warn_of_long_prisms(mesh, unknowns);
+  const std::optional<Warned> of_hexahedra = warn_of_hexahedra(mesh, unknowns, why),
+                              of_others = warn_of_others(mesh, unknowns);
+  if (!of_hexahedra && !of_others) return std::nullopt;
+  if (!of_hexahedra || (of_others && std::abs(of_others->error) > std::abs(of_hexahedra->error)))
+    return of_others->words;
+  return of_hexahedra->words;
 }
 
 }  // namespace pfdm

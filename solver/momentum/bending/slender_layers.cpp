@@ -154,6 +154,22 @@ double mean_chord(const Mesh& mesh, Index cell, const Vector& e) {
   return 2.0 * mesh.cell_volume[cell] / projected;
 }
 
+// x is the excess of hexahedra as long, 1.5 (1 - nu) (length/thickness)^2; f tells how Poisson's effect across
+// stiffens.
+double SlenderLayers::error(double nu) const {
+  const double at_most = std::clamp(nu, 0.0, 0.45), f = at_most * at_most / ((1.0 - at_most) * (1.0 - 2.0 * at_most));
+  const double x = layers.excess(nu), n = layers.n, flat = layers.length / layers.thickness * n;
+  switch (of) {
+    case SlenderCells::prisms_across:
+      return 0.6 * flat / (flat + 1.6) * x / (1.0 + 0.1 * x) - (3.0 - 2.0 / n - 0.6 * f * (2.0 - 3.0 / n)) / (n * n);
+    case SlenderCells::prisms_within: return 1.3 * x / (1.0 + 0.3 * x) - (1.25 + 1.15 / n - 0.17 * f) / (n * n);
+    case SlenderCells::prisms_along: return x / (1.0 + 0.23 * x) - (0.88 - 0.08 * f) / (n * n);
+    case SlenderCells::tetrahedra: return 0.63 * x / (1.0 + 0.13 * x) - (0.2 + 0.95 / n - 0.14 * f) / (n * n);
+    case SlenderCells::polyhedra: break;
+  }
+  return 3.3 * flat * x / (1.0 + x) - 5.0 / (flat * n * n);
+}
+
 std::vector<SlenderLayers> slender_layers(const Mesh& mesh, const Unknowns& unknowns) {
   std::vector<SlenderLayers> all;
   if (unknowns.motion.any() || !unknowns.periodic.empty() || unknowns.is_axisymmetric()) return all;

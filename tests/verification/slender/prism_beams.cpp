@@ -59,6 +59,17 @@ TEST(SlenderPrisms, BendInPlaneMeshesAsBeams) {
       }
 }
 
+TEST(SlenderPrisms, LongerThanTheBodyIsThickAreWarnedOf) {
+  const Mesh mesh = make_cell_beam(triangles(2, 3.0, false));
+  const auto warning = bending_warning(mesh, elastic_model({from_young_poisson(E, 0.3)}, clamped_at_x0(false)));
+  ASSERT_TRUE(warning.has_value());
+  EXPECT_NE(
+      warning->find("2 layers of triangles 2.27 mm long across 1.5 mm: where they bend, their stiffness is not known"),
+      std::string::npos)
+      << *warning;
+  EXPECT_NE(warning->find("For 5 %: cells up to 1.5 mm long"), std::string::npos) << *warning;
+}
+
 TEST(SlenderPrisms, BendUnderMomentsAndAlongLoads) {
   for (const bool alternates : {false, true})
     for (const Load load : {Load::moment, Load::distributed})
