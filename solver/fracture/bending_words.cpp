@@ -100,8 +100,8 @@ std::optional<std::string> warn_of_long_prisms(const Mesh& mesh, const Unknowns&
     if (at.layers.length > longest * at.layers.thickness)
       return words_on_layers(mesh, at.cell, at.layers, "triangles") +
              fmt::format(
-                 "not known (cells longer than the body is thick: 1.5 times 18 % too low to 3 % too high, twice "
-                 "38 % too low to 48 % too high, by nu and the diagonals). For 5 %: cells up to {} long "
+                 "not known (cells longer than the body is thick: 1.5 times 23 % too low to 3 % too high, twice "
+                 "39 % too low to 48 % too high, by nu and the diagonals). For 5 %: cells up to {} long "
                  "([mesh])",
                  quantity_text(at.layers.thickness, "m", 2));
   return std::nullopt;
