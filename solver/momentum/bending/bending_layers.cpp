@@ -203,6 +203,16 @@ std::vector<BendingCell> cells_of_layers(const Mesh& mesh, const Unknowns& unkno
   return cells;
 }
 
+double poisson_share(double nu) {
+  const double at_most = std::clamp(nu, 0.0, 0.45);
+  return at_most * at_most / ((1.0 - at_most) * (1.0 - 2.0 * at_most));
+}
+
+double BendingLayers::error_of_one_ring(double nu) const {
+  const double x = excess(nu), poisson = n > 1.5 ? 0.6 * poisson_share(nu) * (2.0 - 3.0 / n) / (n * n) : 0.0;
+  return x / (1.0 + 0.13 * x * std::sqrt(x)) - lack() + poisson;
+}
+
 double BendingLayers::excess_of_lines(double nu) const {
   const double at_most = std::min(nu, 0.45);
   const double longer = std::max(0.0, length / thickness - 1.0);
@@ -241,7 +251,7 @@ std::optional<BendingError> largest_bending_error(const Mesh& mesh, const Unknow
   std::optional<BendingError> largest;
   over_layers(mesh, unknowns, [&](const BendingCell& in, const BendingLayers& at, double nu) {
     const bool by_lines = lines && has_lines(mesh, unknowns, in, *lines);
-    const double error = by_lines ? at.excess_of_lines(nu) - at.lack_of_lines() : at.excess(nu) - at.lack();
+    const double error = by_lines ? at.excess_of_lines(nu) - at.lack_of_lines() : at.error_of_one_ring(nu);
     if (!largest || std::abs(error) > std::abs(largest->error))
       largest = {.cell = in.cell, .layers = at, .poisson_ratio = nu, .error = error, .has_lines = by_lines};
   });

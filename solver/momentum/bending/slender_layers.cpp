@@ -157,7 +157,7 @@ double mean_chord(const Mesh& mesh, Index cell, const Vector& e) {
 // x is the excess of hexahedra as long, 1.5 (1 - nu) (length/thickness)^2; f tells how Poisson's effect across
 // stiffens.
 double SlenderLayers::error(double nu) const {
-  const double at_most = std::clamp(nu, 0.0, 0.45), f = at_most * at_most / ((1.0 - at_most) * (1.0 - 2.0 * at_most));
+  const double f = poisson_share(nu);
   const double x = layers.excess(nu), n = layers.n, flat = layers.length / layers.thickness * n;
   switch (of) {
     case SlenderCells::prisms_across:

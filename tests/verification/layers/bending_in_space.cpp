@@ -212,8 +212,8 @@ double deflection_by_one_ring(const Mesh& mesh, const FractureModel& model) {
 // Of elasticity that may depend on the direction each cell's gradient is that of one ring. The sides across z are
 // planes of symmetry, so that the beam is that in plane strain.
 TEST(Bending, InSpaceByOneRingErrsAsTheFormulaSays) {
-  for (const double nu : {0.0, 0.3})
-    for (const Index across : {4, 6})
+  for (const double nu : {0.0, 0.3, 0.45})
+    for (const Index across : {2, 4, 6})
       for (const double ratio : {1.0, 2.0, 4.0}) {
         const Mesh mesh = mesh_of(along_with(ratio, across), across);
         FractureModel model = elastic_model(
@@ -226,14 +226,18 @@ TEST(Bending, InSpaceByOneRingErrsAsTheFormulaSays) {
         const double due = largest_bending_error(mesh, place_unknowns(mesh, elastic_body(model)))->error;
         report_row(fmt::format("in space, nu = {}, {} layers, {} times as long as thick", nu, across, ratio),
                    {{"stiffness over the beam's, less 1", found}, {"formula", due}});
-        EXPECT_NEAR(found, due, 0.02 + 0.25 * std::abs(due));
+        EXPECT_NEAR(found, due, std::max(across == 2 ? 0.1 : 0.015, std::abs(due) / 3.0));
         const auto warning = bending_warning(mesh, model);
-        ASSERT_TRUE(warning.has_value());
+        ASSERT_EQ(warning.has_value(), std::abs(due) > 0.03);
+        if (!warning) continue;
         EXPECT_NE(
             warning->find(fmt::format("about {:.0f} % too {}", 100.0 * std::abs(due), due > 0.0 ? "high" : "low")),
             std::string::npos)
             << *warning;
-        EXPECT_NE(warning->find("; elasticity that depends on the direction)"), std::string::npos) << *warning;
+        EXPECT_NE(warning->find("(elasticity that depends on the direction; measured within a third)"),
+                  std::string::npos)
+            << *warning;
+        if (ratio > across) continue;  // cells longer than the body is thick
         model.regions[0].stiffness = nullptr;
         EXPECT_FALSE(bending_warning(mesh, model).has_value());  // gradients along lines
         model.boundary[0] = plane_on("zmin");
