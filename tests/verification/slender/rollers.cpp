@@ -98,5 +98,40 @@ TEST(Rollers, ThatAreNoPlanesOfSymmetry) {
         }
 }
 
+// Of two materials, one of a tenth of the other's modulus, one or two cells each, on a roller: also where one cell lies
+// between the bond and the roller. A curvature bends them to a parabola, nu = 0.
+TEST(Rollers, UnderLaminates) {
+  const auto error_of = [](bool is_plane, const std::array<Index, 2>& layers, double E_upper, const Held& roller) {
+    BoxHexesSettings box;
+    box.axes[0] = {{span, 24, 1.0}};
+    box.axes[1] = {{0.4 * height, layers[0], 1.0}, {0.6 * height, layers[1], 1.0}};
+    box.axes[2] = {{width, 1, 1.0}};
+    box.regions = {{.name = "upper", .lower = {-1.0, 0.4 * height, -1.0}, .upper = {1.0, 1.0, 1.0}}};
+    const Mesh mesh = make_box_hexes(box);
+    const double A = 0.4 * E + 0.6 * E_upper, B = 0.08 * E + 0.42 * E_upper, neutral = B / A * height;
+    const auto exact = [=](const Vector& x) -> Vector {
+      return 1e-3 / height * Vector(x.x() * (x.y() - neutral), -0.5 * x.x() * x.x(), 0.0);
+    };
+    const auto side = is_plane ? plane_on : symmetry_on;
+    const BoundaryCondition on{.patch = roller.patch,
+                               .displacement_prescribed = {roller.x, roller.y, false},
+                               .value = [=](const Vector& x, double) -> Vector {
+                                 const Vector u = exact(x);
+                                 return {roller.x ? u.x() : 0.0, roller.y ? u.y() : 0.0, 0.0};
+                               }};
+    const auto end = [&](const char* patch) {
+      return moved(patch, {true, true, false}, [=](const Vector& x, double) { return exact(x); });
+    };
+    const FractureModel model = elastic_model({from_young_poisson(E, 0.0), from_young_poisson(E_upper, 0.0)},
+                                              {side("zmin"), side("zmax"), end("xmin"), end("xmax"), on});
+    return displacement_error(mesh, *solve_elastic(mesh, model, {}, 1e-10), exact);
+  };
+  for (const bool is_plane : {true, false})
+    for (const auto& layers : {std::array<Index, 2>{1, 1}, {1, 2}, {2, 1}, {2, 2}})
+      for (const double E_upper : {0.1 * E, 10.0 * E})
+        for (const Held& roller : {Held{"ymin", false, true}, {"ymin", true, false}, {"ymax", false, true}})
+          EXPECT_LT(error_of(is_plane, layers, E_upper, roller), 1e-6);
+}
+
 }  // namespace
 }  // namespace pfdm::verification::this_file
