@@ -4,11 +4,19 @@
 #include "mesh/patch_rules.h"
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <utility>
 
 namespace pfdm::verification {
 namespace {
+
+// Of the point number i of n + 1 along an axis; ends stay.
+double moved(Index i, Index n, double noise, Index seed) {
+  const double wave = 43758.5453 * std::sin(12.9898 * static_cast<double>(seed) + 78.233);
+  const double part = i > 0 && i < n ? noise * (wave - std::floor(wave) - 0.5) : 0.0;
+  return (static_cast<double>(i) + part) / static_cast<double>(n);
+}
 
 using Corner = std::function<Index(int, int, int)>;
 
@@ -77,7 +85,9 @@ Mesh make_cell_beam(const CellBeam& beam) {
   for (Index k = 0; k <= nz; ++k)
     for (Index j = 0; j <= ny; ++j)
       for (Index i = 0; i <= nx; ++i)
-        soup.points.push_back(beam.size.cwiseProduct(Vector(double(i) / nx, double(j) / ny, double(k) / nz)));
+        soup.points.push_back(beam.size.cwiseProduct(Vector(moved(i, nx, beam.noise, 131 * i + 17 * j),
+                                                            moved(j, ny, beam.noise, 37 * i + 71 * j + 5),
+                                                            static_cast<double>(k) / static_cast<double>(nz))));
   for (Index k = 0; k < nz; ++k)
     for (Index j = 0; j < ny; ++j)
       for (Index i = 0; i < nx; ++i)

@@ -21,6 +21,7 @@ struct CellBeam {
   std::array<Index, 3> boxes{1, 1, 1};
   Vector size = Vector::Ones();  ///< [m]
   bool alternates = false;       ///< diagonals of prisms turn from box to box
+  double noise = 0.0;            ///< points within the beam move along x and y by up to half of this part of a box
 };
 
 /// Of one region; patches as of a box.

@@ -59,6 +59,18 @@ TEST(SlenderPrisms, BendInPlaneMeshesAsBeams) {
       }
 }
 
+TEST(SlenderPrisms, BendIfTheyAreIrregular) {
+  for (const double ratio : {1.0, 2.0})
+    for (const bool alternates : {false, true}) {
+      CellBeam of = triangles(4, ratio, alternates);
+      of.noise = 0.6;
+      const Bent bent = bend(of, {.nu = 0.3});
+      report_row(fmt::format("irregular, {} times as long as thick{}", ratio, alternates ? ", alternating" : ""),
+                 {{"stiffness, less 1", bent.stiffness}, {"iterations", static_cast<double>(bent.iterations)}});
+      EXPECT_LT(std::abs(bent.stiffness), 0.01);
+    }
+}
+
 TEST(SlenderPrisms, LongerThanTheBodyIsThickAreWarnedOf) {
   const Mesh mesh = make_cell_beam(triangles(2, 3.0, false));
   const auto warning = bending_warning(mesh, elastic_model({from_young_poisson(E, 0.3)}, clamped_at_x0(false)));
