@@ -39,6 +39,12 @@ inline constexpr CommandText case_commands[] = {
     {"sweep", "Run a case with the sets of values that it names in [sweep]",
      "Writes to CASE/results: sweep.csv, a row for each run. The runs are kept in CASE/results/runs, with links by\n"
      "their values in runs_by_value; the same command continues them. pfdm report CASE then draws the figures."},
+    {"sensitivity", "Say which parameter of a case moves which part of its force-displacement curve",
+     "Writes to CASE/results: sensitivity.json, sensitivity.csv (elasticities d ln F/d ln p over the displacement, "
+     "with\n"
+     "errors) and the page sensitivity/index.html. Each parameter takes four runs, which are kept in "
+     "CASE/results/runs;\n"
+     "the same command continues them."},
     {"analyse", "Analyse the vibration records of a case without a fit: spectra, responses, harmonics",
      "Writes to CASE/results/analysis: analysis.json and, of each test NAME, NAME_spectra.csv (densities, H1, H2, Hv,\n"
      "coherence with bounds), NAME_spectrogram.csv and, of sines, NAME_harmonics.csv, NAME_envelopes.csv (recorded,\n"

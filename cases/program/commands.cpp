@@ -42,6 +42,7 @@ struct Parser {
   CLI::App& command(const std::string& name) const { return *app.get_subcommand(name); }
   void add_case_options();
   void add_export_options();
+  void add_sensitivity_options();
   void add_other_options();
 };
 
@@ -64,6 +65,7 @@ Parser::Parser() {
   for (const CommandText& text : other_commands) add(text);
   add_case_options();
   add_export_options();
+  add_sensitivity_options();
   add_other_options();
 }
 
@@ -135,6 +137,22 @@ void Parser::add_export_options() {
   add("--shear-strength", words.shear_strength, "\"2 MPa\" (default: the strength)", "STRESS");
   add("--shear-energy", words.shear_energy, "GII, \"20 J/m^2\" (default: GI)", "ENERGY");
   add("--exponent", words.exponent, "of the mode mix by Benzeggagh and Kenane (default: 2)", "N");
+}
+
+void Parser::add_sensitivity_options() {
+  CLI::App& of = command("sensitivity");
+  of.add_option(
+        "--parameters", line.sensitivity.parameters,
+        "keys of the case by which its curve is differentiated, as materials.glass.young_modulus; keys joined by "
+        "+ keep their ratio (default: those of [fit], or all positive constants of materials, regions, "
+        "interfaces and the phase field)")
+      ->type_name("KEY,...")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  of.add_option("--step", line.sensitivity.step,
+                "of the differences, relative to the parameter (default: 0.01); half of it tells their error")
+      ->check(CLI::Range(1e-4, 0.3))
+      ->type_name("SHARE");
 }
 
 void Parser::add_other_options() {

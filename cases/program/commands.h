@@ -2,6 +2,7 @@
 // The words of the command line: commands, their options, help. The only place that knows CLI11.
 
 #include "cases/program/session/export_words.h"
+#include "cases/program/session/sensitivity_words.h"
 #include "physics/tensor.h"
 
 #include <optional>
@@ -28,7 +29,8 @@ struct CommandLine {
   bool live = false;     ///< of run
   std::string curve_to;  ///< of run: a file, as a script's pipe
   std::optional<std::string> prepared{};
-  ExportWords exports{};      ///< of cohesive
+  ExportWords exports{};  ///< of cohesive
+  SensitivityWords sensitivity{};
   std::string new_directory;  ///< of init
   std::string like;           ///< of init: a case
   std::string shell;          ///< of completion

@@ -50,7 +50,7 @@ std::string command_on_same(const CommandLine& line, std::string_view command) {
 
 /// What is kept after an interruption, and how the job is continued.
 std::string way_on(const CommandLine& line, const RunnableCase& runnable) {
-  if (line.command == "sweep" || (line.command == "fit" && runnable.goes_on))
+  if (line.command == "sweep" || line.command == "sensitivity" || (line.command == "fit" && runnable.goes_on))
     return "; what has been computed is kept, and the same command continues it";
   if (!runnable.goes_on && (line.command == "run" || line.command == "fit"))
     return fmt::format("; earlier results are unchanged, and the same command starts the {} from the beginning",
@@ -71,9 +71,11 @@ void say_next(const CommandLine& line, const RunnableCase& runnable, Log& log) {
 
 const std::function<void(Session&)>& job_of(const CommandLine& line, const RunnableCase& runnable) {
   const std::pair<const char*, const std::function<void(Session&)>*> jobs[] = {
-      {"run", &runnable.run},           {"check", &runnable.check},     {"mesh", &runnable.mesh},
-      {"cohesive", &runnable.cohesive}, {"compare", &runnable.compare}, {"fit", &runnable.fit},
-      {"sweep", &runnable.sweep},       {"analyse", &runnable.analyse}, {"report", &runnable.report}};
+      {"run", &runnable.run},         {"check", &runnable.check},
+      {"mesh", &runnable.mesh},       {"cohesive", &runnable.cohesive},
+      {"compare", &runnable.compare}, {"fit", &runnable.fit},
+      {"sweep", &runnable.sweep},     {"sensitivity", &runnable.sensitivity},
+      {"analyse", &runnable.analyse}, {"report", &runnable.report}};
   for (const auto& [command, job] : jobs)
     if (line.command == command && *job) return *job;
   throw InputError(fmt::format("{}: this kind of case has no \"{}\"", line.case_directory, line.command));
@@ -129,7 +131,8 @@ void do_case(const CommandLine& line, std::ostream& out, std::ostream& err, bool
                   .strict = line.strict,
                   .slurm = line.slurm,
                   .curve_to = line.curve_to,
-                  .exports = line.exports};
+                  .exports = line.exports,
+                  .sensitivity = line.sensitivity};
   if (line.cases.size() > 1) return do_comparison(line, session);
   if (line.prepared)
     return do_job([&](Session& s) { make_prepared_run(line.case_directory, *line.prepared, s); }, session, "");

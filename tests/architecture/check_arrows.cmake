@@ -79,9 +79,11 @@ set(rooms
      cases/program/input cases/program/session cases/program/studies/runs"
     "cases/program/studies/sweep: physics solver/calibration postproc/files postproc/curves postproc/page postproc/browser
      cases/program/input cases/program/session cases/program/studies/runs"
+    "cases/program/studies/sensitivity: physics solver/calibration postproc/files postproc/curves postproc/page postproc/browser
+     cases/program/input cases/program/session cases/program/studies/runs cases/program/studies/fit"
     "cases/program/studies: physics solver/calibration postproc/files postproc/curves postproc/page postproc/browser cases/program/input
      cases/program/session cases/program/studies/runs cases/program/studies/fit
-     cases/program/studies/sweep"
+     cases/program/studies/sensitivity cases/program/studies/sweep"
     "cases/program/chain: physics solver/calibration postproc/files postproc/page cases/program/input cases/program/session"
     "cases/program/point: physics solver/point postproc/files postproc/curves postproc/point postproc/page cases/program/input
      cases/program/session cases/program/studies"

@@ -22,6 +22,7 @@
 #include "cases/program/session/report_parts.h"
 #include "cases/program/session/terminal/stopwatch.h"
 #include "cases/program/studies/fit/curve_fit.h"
+#include "cases/program/studies/sensitivity/sensitivity.h"
 #include "postproc/files/folder_lock.h"
 #include "postproc/files/other_case.h"
 #include "solver/fracture/bending_words.h"
@@ -142,13 +143,31 @@ void compare(const FractureProgram& program, Session& session) {
   compare_with_experiment(program.fracture, *program.experiment, program.name, program.hash, session);
 }
 
-void fit(const FractureProgram& program, Session& session) {
-  if (!program.experiment)
-    throw InputError(fmt::format("{}: it names no [experiment] that the curve could be fitted to", program.name));
-  const auto read = [component = program.fracture.output.curve.component](const std::filesystem::path& results) {
+/// How the curve is read from the results of a run.
+CurveModel::ReadCurve curve_reader(const FractureProgram& program) {
+  return [component = program.fracture.output.curve.component](const std::filesystem::path& results) {
     const std::vector<CurveRow> rows = read_curve(results / curve_file);
     return computed_curve(rows, component, first_debonding_in(results, rows, component));
   };
+}
+
+void sensitivity(const FractureProgram& program, Session& session) {
+  std::vector<CaseParameter> fitted;
+  if (program.fit)
+    for (const CurveFitParameter& p : program.fit->parameters)
+      if (!p.in_case.name.starts_with("experiment") && p.in_case.value > 0.0) fitted.push_back(p.in_case);
+  run_sensitivity({.file = program.file,
+                   .fitted = std::move(fitted),
+                   .read_curve = curve_reader(program),
+                   .name = program.name,
+                   .title = program.fracture.title,
+                   .hash = program.hash},
+                  session);
+}
+
+void fit(const FractureProgram& program, Session& session) {
+  if (!program.experiment)
+    throw InputError(fmt::format("{}: it names no [experiment] that the curve could be fitted to", program.name));
   const ExperimentSettings& experiment = *program.experiment;
   const std::vector<MeasuredEvent> events = events_of_fit(program);
   fit_curve({.file = program.file,
@@ -158,7 +177,7 @@ void fit(const FractureProgram& program, Session& session) {
              .straight_from = experiment.stiffness_from,
              .straight_to = experiment.stiffness_to,
              .set_ups = [](const CaseFile& file) { return read_set_ups(file.config.root()); },
-             .read_curve = read,
+             .read_curve = curve_reader(program),
              .laws = opening_laws,
              .other_laws = with_other_laws(program.file),
              .name = program.name,
@@ -203,6 +222,7 @@ RunnableCase read_program(const CaseFile& file) {
   RunnableCase found = runnable(program);
   found.compare = [program](Session& session) { compare(*program, session); };
   found.fit = [program](Session& session) { fit(*program, session); };
+  found.sensitivity = [program](Session& session) { sensitivity(*program, session); };
   if (!program->fit)
     found.fit = job_without_table(file, "fit",
                                   "[[fit.parameters]] that name the values to be estimated with their bounds, and "

@@ -24,6 +24,7 @@ struct RunnableCase {
   std::function<void(Session&)> compare{};          ///< results against experiments
   std::function<void(Session&)> fit{};              ///< estimates the parameters that the case names
   std::function<void(Session&)> sweep{};            ///< runs with the sets of values that the case names
+  std::function<void(Session&)> sensitivity{};      ///< of its curve to its parameters
   std::function<void(Session&)> analyse{};          ///< what records say without a fit
   std::function<void(Session&)> report{};           ///< pictures and plots on one page; read_case() makes it of `page`
   std::function<CasePage(const Session&)> page{};   ///< what the results show

@@ -3,6 +3,7 @@
 
 #include "cases/program/session/export_words.h"
 #include "cases/program/session/mesh_store.h"
+#include "cases/program/session/sensitivity_words.h"
 #include "cases/program/session/terminal/log.h"
 #include "physics/tensor.h"
 
@@ -30,12 +31,13 @@ struct Session {
   std::string version;
   RunnableCase (*read_case)(const CaseFile& file) = nullptr;  ///< of any kind: for jobs that run other cases
   Log& log;
-  bool strict = false;                 ///< a fit that is not sound is an error
-  bool slurm = false;                  ///< hand the runs of a sweep to Slurm
-  std::filesystem::path curve_to{};    ///< where a script reads the rows of the curve while the run goes on
-  bool figures_only = false;           ///< of many runs: summary and curves, no fields
-  MeshStore* meshes = nullptr;         ///< where meshes are kept that several runs share
-  ExportWords exports{};               ///< of cohesive
+  bool strict = false;               ///< a fit that is not sound is an error
+  bool slurm = false;                ///< hand the runs of a sweep to Slurm
+  std::filesystem::path curve_to{};  ///< where a script reads the rows of the curve while the run goes on
+  bool figures_only = false;         ///< of many runs: summary and curves, no fields
+  MeshStore* meshes = nullptr;       ///< where meshes are kept that several runs share
+  ExportWords exports{};             ///< of cohesive
+  SensitivityWords sensitivity{};
   std::optional<LiveCommands> live{};  ///< report/index.html is kept up to date while the run goes on
 };
 

@@ -8,8 +8,15 @@
 namespace pfdm {
 namespace {
 
-/// One value of the case, as it is written there.
-CaseParameter parameter_at(const std::string& key, const CaseFile& file) {
+/// What is written into the file: a text with its unit, or a bare number.
+std::string piece_of_toml(const CaseParameter& parameter, double si) {
+  const std::string text = parameter.shown(si);
+  return parameter.unit.empty() ? text : fmt::format("\"{}\"", text);
+}
+
+}  // namespace
+
+CaseParameter case_parameter(const std::string& key, const CaseFile& file) {
   const TomlValue root = parse_toml(file.text, "case.toml");
   const TomlValue& value = value_at(root, key);
   CaseParameter parameter{.name = key, .keys = {key}, .ratios = {1.0}, .dimension = dimension::number, .unit = {}};
@@ -29,13 +36,15 @@ CaseParameter parameter_at(const std::string& key, const CaseFile& file) {
   return parameter;
 }
 
-/// What is written into the file: a text with its unit, or a bare number.
-std::string piece_of_toml(const CaseParameter& parameter, double si) {
-  const std::string text = parameter.shown(si);
-  return parameter.unit.empty() ? text : fmt::format("\"{}\"", text);
+void keep_ratio(CaseParameter& parameter, const CaseParameter& other) {
+  if (other.dimension.name != parameter.dimension.name)
+    throw InputError(fmt::format("this is {}, \"{}\" is {}; keys that keep a ratio must have the same dimension",
+                                 with_article(other.dimension.name), parameter.name,
+                                 with_article(parameter.dimension.name)));
+  if (parameter.value == 0.0) throw InputError("the value of the first key is zero; no ratio to it can be kept");
+  parameter.keys.insert(parameter.keys.end(), other.keys.begin(), other.keys.end());
+  for (const double ratio : other.ratios) parameter.ratios.push_back(ratio * other.value / parameter.value);
 }
-
-}  // namespace
 
 std::string CaseParameter::shown(double si) const {
   const double value_in_file = in_file_units(si);
@@ -45,17 +54,9 @@ std::string CaseParameter::shown(double si) const {
 CaseParameter read_case_parameter(const ConfigValue& key, const CaseFile& file) {
   const std::vector<ConfigValue> keys = key.is_list() ? key.list() : std::vector{key};
   if (keys.empty()) throw key.error("expected a key of the case, as in \"materials.glass.young_modulus\"");
-  CaseParameter result = keys[0].in_context([&] { return parameter_at(keys[0].string(), file); });
-  for (std::size_t i = 1; i < keys.size(); ++i) {
-    const CaseParameter other = keys[i].in_context([&] { return parameter_at(keys[i].string(), file); });
-    if (other.dimension.name != result.dimension.name)
-      throw keys[i].error(fmt::format("this is {}, \"{}\" is {}; keys that keep a ratio must have the same dimension",
-                                      with_article(other.dimension.name), result.name,
-                                      with_article(result.dimension.name)));
-    if (result.value == 0.0) throw keys[0].error("the value of the first key is zero; no ratio to it can be kept");
-    result.keys.push_back(other.name);
-    result.ratios.push_back(other.value / result.value);
-  }
+  CaseParameter result = keys[0].in_context([&] { return case_parameter(keys[0].string(), file); });
+  for (std::size_t i = 1; i < keys.size(); ++i)
+    keys[i].in_context([&] { keep_ratio(result, case_parameter(keys[i].string(), file)); });
   return result;
 }
 
@@ -80,7 +81,7 @@ CaseFile with_values(const CaseFile& file, std::span<const CaseParameter> parame
   std::string text = file.text;
   for (std::size_t j = 0; j < parameters.size(); ++j)
     for (std::size_t k = 0; k < parameters[j].keys.size(); ++k) {
-      const CaseParameter there = parameter_at(parameters[j].keys[k], file);
+      const CaseParameter there = case_parameter(parameters[j].keys[k], file);
       text = with_value(text, there.name, piece_of_toml(there, values[j] * parameters[j].ratios[k]));
     }
   return with_text(file, std::move(text));

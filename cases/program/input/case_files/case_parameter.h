@@ -27,6 +27,12 @@ struct CaseParameter {
   std::string shown(double si) const;
 };
 
+/// The value of `file` at a key. Throws InputError if it is not there, or is neither a quantity nor a number.
+CaseParameter case_parameter(const std::string& key, const CaseFile& file);
+/// Adds the keys of `other`, which keep their ratios to the first. Throws InputError if it has another dimension, or
+/// the first value is zero.
+void keep_ratio(CaseParameter& parameter, const CaseParameter& other);
+
 /// `key` is a key of `file`, or a list of keys whose values keep their ratios. Throws InputError if one is not there,
 /// or is neither a quantity nor a number.
 CaseParameter read_case_parameter(const ConfigValue& key, const CaseFile& file);

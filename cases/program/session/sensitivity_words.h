@@ -1,0 +1,14 @@
+#pragma once
+// What `pfdm sensitivity` was given, as it was typed.
+
+#include <string>
+#include <vector>
+
+namespace pfdm {
+
+struct SensitivityWords {
+  std::vector<std::string> parameters{};  ///< keys; several joined by "+" keep their ratios. None: the default ones
+  double step = 0.01;                     ///< of the differences, relative to the parameter
+};
+
+}  // namespace pfdm

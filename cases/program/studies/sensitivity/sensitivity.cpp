@@ -1,0 +1,103 @@
+#include "cases/program/studies/sensitivity/sensitivity.h"
+
+#include "cases/program/session/head_line.h"
+#include "cases/program/session/terminal/stopwatch.h"
+#include "cases/program/studies/runs/case_runs.h"
+#include "cases/program/studies/sensitivity/sensitivity_page.h"
+#include "cases/program/studies/sensitivity/sensitivity_parameters.h"
+#include "cases/program/studies/sensitivity/sensitivity_results.h"
+#include "postproc/files/folder_lock.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+namespace pfdm {
+namespace {
+
+constexpr std::array shares_of_step{1.0, -1.0, 0.5, -0.5};
+
+std::vector<CaseParameter> parameters_of(const SensitivityJob& job, const Session& session,
+                                         std::vector<std::string>& remarks) {
+  std::vector<CaseParameter> found = job.fitted;
+  if (!session.sensitivity.parameters.empty())
+    found = named_parameters(session.sensitivity.parameters, job.file);
+  else if (found.empty())
+    found = stated_constants(job.file, remarks);
+  if (found.empty())
+    throw InputError(
+        "the case states no positive constant of a material, a region or an interface: name values by "
+        "--parameters, as in --parameters materials.glass.young_modulus");
+  return found;
+}
+
+/// The case itself, then four of each parameter.
+std::vector<CaseVariant> variants_of(const SensitivityJob& job, const std::vector<CaseParameter>& parameters,
+                                     double step) {
+  std::vector<CaseVariant> variants{{job.file, "the case itself"}};
+  for (const CaseParameter& p : parameters)
+    for (const double by : shares_of_step) {
+      const std::array value{p.value * (1.0 + by * step)};
+      const std::span one(&p, 1);
+      variants.push_back({with_values(job.file, one, value), shown(one, value)});
+    }
+  return variants;
+}
+
+ParameterSensitivity differentiated(const CaseParameter& parameter, std::span<const DoneRun> runs,
+                                    const SensitivityJob& job, const CaseSensitivity& found) {
+  ParameterSensitivity result{.parameter = parameter};
+  const auto failed = std::ranges::find_if(runs, [](const DoneRun& run) { return !run.went_well(); });
+  if (failed != runs.end()) {
+    result.failure = failed->failure;
+    return result;
+  }
+  CurvesAround around{.step = found.step, .curves = {}};
+  for (std::size_t k = 0; k < runs.size(); ++k) around.curves[k] = job.read_curve(runs[k].folder);
+  result.curve = elasticities(found.curve, around);
+  for (const BaseEvent& event : found.events) result.events.push_back(elasticities(event, around));
+  return result;
+}
+
+}  // namespace
+
+void run_sensitivity(const SensitivityJob& job, Session& session) {
+  const Stopwatch watch;
+  CaseSensitivity found{.name = job.name,
+                        .title = job.title,
+                        .version = session.version,
+                        .hash = job.hash,
+                        .step = session.sensitivity.step,
+                        .curve = {},
+                        .events = {},
+                        .parameters = {},
+                        .remarks = {}};
+  const std::vector<CaseParameter> parameters = parameters_of(job, session, found.remarks);
+  const std::vector<CaseVariant> variants = variants_of(job, parameters, found.step);
+  const FolderLock lock(session.results);
+  session.log.say(
+      head_line(session, fmt::format("sensitivity of {}: {} by differences of {:g} % and {:g} %, {}", job.name,
+                                     counted(static_cast<Index>(parameters.size()), "parameter"), 100.0 * found.step,
+                                     50.0 * found.step, counted(static_cast<Index>(variants.size()), "run"))));
+  session.log.open_file(session.results / "sensitivity.log", true);
+  CaseRuns runs(session.results / "runs", session);
+  const std::vector<DoneRun> done = runs.run(variants);
+  if (!done.front().went_well())
+    throw ComputationError(fmt::format("the case itself does not come to its end: {}", done.front().failure));
+  found.curve = job.read_curve(done.front().folder);
+  found.events = events_of(found.curve);
+  for (std::size_t j = 0; j < parameters.size(); ++j)
+    found.parameters.push_back(differentiated(
+        parameters[j], std::span(done).subspan(1 + shares_of_step.size() * j, shares_of_step.size()), job, found));
+  conclude(found);
+  write_sensitivity(session.results, found);
+  for (const std::string& line : words_of(found)) session.log.say(line);
+  for (const std::string& remark : found.remarks) session.log.warn(remark);
+  session.log.say(fmt::format("{} runs made, {} reused; {:.1f} s; written to {} and {}", runs.n_made(), runs.n_reused(),
+                              watch.seconds(), (session.results / sensitivity_json).string(), sensitivity_file));
+  report_sensitivity(found, session);
+}
+
+}  // namespace pfdm
