@@ -42,18 +42,24 @@ Chart force_chart(const CaseSensitivity& found, const DisplayUnit& x) {
 /// The line has gaps where an elasticity is not known or doubtful; doubtful ones are points beside it.
 void add_series(Chart& chart, const CaseSensitivity& found, const ParameterSensitivity& p, const DisplayUnit& x) {
   const int colour = static_cast<int>(chart.series.size() % most_lines);
-  Series line{.label = p.parameter.short_name(), .x = in_unit(found.curve.x, x), .y = {}, .colour = colour};
+  Series line{.label = short_name(p.parameter), .x = in_unit(found.curve.x, x), .y = {}, .colour = colour};
   for (const Elasticity& e : p.curve) line.y.push_back(e.is_doubtful() ? none : e.value);
   chart.series.push_back(std::move(line));
 }
 
+/// Those within the range of the lines.
 void add_doubtful(Chart& chart, const CaseSensitivity& found, const DisplayUnit& x) {
+  double least = 0.0, most = 1.0;
+  for (const Series& line : chart.series)
+    for (const double y : line.y)
+      if (std::isfinite(y)) least = std::min(least, y), most = std::max(most, y);
+  const double beyond = 0.2 * (most - least);
   Series points{.label = "doubtful", .x = {}, .y = {}, .style = SeriesStyle::points, .colour = 7};
   for (const ParameterSensitivity& p : found.parameters)
     for (std::size_t i = 0; i < p.curve.size(); ++i)
-      if (p.curve[i].is_doubtful()) {
+      if (const double y = p.curve[i].value; p.curve[i].is_doubtful() && y > least - beyond && y < most + beyond) {
         points.x.push_back(x.factor * found.curve.x[i]);
-        points.y.push_back(p.curve[i].value);
+        points.y.push_back(y);
       }
   if (!points.x.empty()) chart.series.push_back(std::move(points));
 }
@@ -76,7 +82,7 @@ Table parameters_table(const CaseSensitivity& found) {
   for (const ParameterSensitivity& p : found.parameters) {
     const auto overview = p.overview(found.curve);
     if (!overview.largest) continue;
-    table.rows.push_back({p.parameter.name, p.parameter.shown(p.parameter.value),
+    table.rows.push_back({p.parameter.name, in_print(p.parameter.shown(p.parameter.value)),
                           fmt::format("{:.3f}", p.curve[*overview.largest].value),
                           shown(found.curve.x[*overview.largest], "m"), fmt::format("{:.3f}", overview.mean),
                           fmt::format("{:.2g}", overview.error)});
@@ -84,17 +90,23 @@ Table parameters_table(const CaseSensitivity& found) {
   return table;
 }
 
+std::string printed(const Elasticity& elasticity) {
+  std::string text = text_of(elasticity);
+  if (const std::size_t at = text.find("+-"); at != std::string::npos) text.replace(at, 2, "±");
+  return text;
+}
+
 /// A row for each figure of an event, a column for each of some parameters.
 Table events_table(const CaseSensitivity& found, std::span<const ParameterSensitivity> parameters) {
   Table table{.caption = "Elasticities of events", .rows = {{"event", "figure", "value"}}, .has_header = true};
-  for (const ParameterSensitivity& p : parameters) table.rows[0].push_back(p.parameter.short_name());
+  for (const ParameterSensitivity& p : parameters) table.rows[0].push_back(short_name(p.parameter));
   for (std::size_t e = 0; e < found.events.size(); ++e)
     for (std::size_t q = 0; q < found.events[e].quantities.size(); ++q) {
       const EventQuantity& quantity = found.events[e].quantities[q];
       table.rows.push_back(
           {found.events[e].event.name(), in_words(quantity.figure), shown(quantity.value, unit_of(quantity.figure))});
       for (const ParameterSensitivity& p : parameters)
-        table.rows.back().push_back(p.failure.empty() ? text_of(p.events[e][q]) : "-");
+        table.rows.back().push_back(p.failure.empty() ? printed(p.events[e][q]) : "-");
     }
   return table;
 }

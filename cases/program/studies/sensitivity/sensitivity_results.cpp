@@ -112,7 +112,7 @@ std::string event_line(const CaseSensitivity& found, std::size_t e, std::size_t 
     if (!p.failure.empty()) continue;
     const Elasticity& elasticity = p.events[e][q];
     by.emplace_back(elasticity.is_known() ? -std::abs(elasticity.value) : 0.0,
-                    fmt::format("{} {}", p.parameter.short_name(), text_of(elasticity)));
+                    fmt::format("{} {}", short_name(p.parameter), text_of(elasticity)));
   }
   std::ranges::stable_sort(by, {}, &std::pair<double, std::string>::first);
   std::vector<std::string> words;
@@ -155,6 +155,11 @@ void conclude(CaseSensitivity& found) {
         "the change. Take shorter load steps (loading.maximum_increment; about jumps loading.energy_release with "
         "loading.finest_increment), a longer --step, or a smaller solver.damage_tolerance",
         n, 100.0 * found.step, 50.0 * found.step));
+}
+
+std::string short_name(const CaseParameter& parameter) {
+  const bool has_own = parameter.name.starts_with("materials.") || parameter.name.starts_with("regions.");
+  return has_own ? parameter.short_name() : parameter.name;
 }
 
 std::string text_of(const Elasticity& elasticity) {

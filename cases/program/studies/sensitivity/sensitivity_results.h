@@ -49,6 +49,9 @@ void write_sensitivity(const std::filesystem::path& folder, const CaseSensitivit
 /// Lines of a table of the parameters, and of one for each event.
 std::vector<std::string> words_of(const CaseSensitivity& found);
 
+/// Its name, without the table where it is one of a material or a region.
+std::string short_name(const CaseParameter& parameter);
+
 /// "0.512 +- 0.002", with a question mark where it is doubtful; "-" where there is none.
 std::string text_of(const Elasticity& elasticity);
 
