@@ -149,6 +149,11 @@ void Parser::add_sensitivity_options() {
       ->type_name("KEY,...")
       ->delimiter(',')
       ->allow_extra_args(false);
+  of.add_option("--method", line.sensitivity.method,
+                "differences: of four whole runs for each parameter (default); direct: derivatives of each step of one "
+                "run, where its models have them")
+      ->check(CLI::IsMember({"differences", "direct"}).description(""))
+      ->type_name("METHOD");
   of.add_option("--step", line.sensitivity.step,
                 "of the differences, relative to the parameter (default: 0.01); half of it tells their error")
       ->check(CLI::Range(1e-4, 0.3))
@@ -238,6 +243,7 @@ CommandWords::Option words_of(const CLI::Option& option, const std::vector<std::
   if (words.value == "COMMAND") words.choices = commands;
   if (words.value == "SHELL") words.choices = {"bash", "zsh"};
   if (words.value == "FORMAT") words.choices = names_of_export_formats();
+  if (words.value == "METHOD") words.choices = {"differences", "direct"};
   if (words.value == "UNITS") words.choices = names_of_unit_systems();
   return words;
 }

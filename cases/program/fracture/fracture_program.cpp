@@ -14,6 +14,7 @@
 #include "cases/program/fracture/outcome/recorded_steps.h"
 #include "cases/program/fracture/page/fracture_browser.h"
 #include "cases/program/fracture/page/fracture_report.h"
+#include "cases/program/fracture/run/differentiated_run.h"
 #include "cases/program/fracture/run/running_case.h"
 #include "cases/program/input/case_files/kept_case.h"
 #include "cases/program/input/fields/field_reader.h"
@@ -159,6 +160,11 @@ void sensitivity(const FractureProgram& program, Session& session) {
   run_sensitivity({.file = program.file,
                    .fitted = std::move(fitted),
                    .read_curve = curve_reader(program),
+                   .direct =
+                       [&program](std::span<const CaseParameter> parameters, Session& s) {
+                         MeshStore own;
+                         return differentiated_run(program, parameters, find_mesh(program, own, s.log), s);
+                       },
                    .name = program.name,
                    .title = program.fracture.title,
                    .hash = program.hash},

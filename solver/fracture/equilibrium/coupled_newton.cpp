@@ -1,6 +1,6 @@
 #include "solver/fracture/equilibrium/coupled_newton.h"
 
-#include "solver/momentum/stiffness_coupling.h"
+#include "solver/fracture/equilibrium/coupled_system.h"
 #include "solver/parallel.h"
 
 #include <algorithm>
@@ -13,9 +13,9 @@ namespace {
 constexpr double jump = 0.03;
 // Change over the change before: while it falls below, the alternation converges by itself.
 constexpr double quick = 0.2;
-// Reductions of the residual of the linear system.
-constexpr double reduction = 0.05, damage_reduction = 0.1;
-constexpr Index most_iterations = 60, most_damage_iterations = 50;
+// Reduction of the residual of the linear system.
+constexpr double reduction = 0.05;
+constexpr Index most_iterations = 60;
 // Rise of the energy, relative, that equilibria which are solved to 1e-4 leave uncertain.
 constexpr double bearable_rise = 1e-6;
 constexpr double shrinkage = 0.25, growth = 2.0, least_radius = 0.05, most_radius = 1.0;
@@ -29,122 +29,30 @@ double largest_change(const CellField<double>& from, const CellField<double>& to
 
 }  // namespace
 
-// The linear system. Its vectors are the displacements, then the damages, three to a vector and times the square root
-// of their diagonal, so that both parts of the residual are of the energy norm's size.
-struct CoupledNewton::System {
-  MomentumSolver& momentum;
-  const DamageEquation& damage;
-  StiffnessCoupling coupling;
-  Index n_cells;
-  std::size_t n_u;
-  CellField<double> g_prime, root;  // root of the diagonal
-  std::vector<double> diagonal, r_d, z_d;
-  ConjugateGradients::Held held;
-  ConjugateGradients by_damage;
-  CellField<double> dd, dg, energy, by_mean;
-  std::vector<Vector> u, force;
-
-  System(const CoupledNewton& newton, const Iterate& at, const FractureState& state, const CellField<double>& answer)
-      : momentum(newton.momentum_),
-        damage(newton.damage_),
-        coupling(momentum.balance(), newton.part_, state.displacement),
-        n_cells(newton.mesh_.n_cells()),
-        n_u(state.displacement.size()),
-        g_prime(damage.stiffness_slopes(state.damage)),
-        root(n_cells, 1.0),
-        diagonal(n_cells, 1.0),
-        r_d(n_cells),
-        z_d(n_cells),
-        held(n_cells, 1),
-        by_damage(damage.coupling()),
-        dd(n_cells),
-        dg(n_cells),
-        energy(n_cells),
-        by_mean(n_cells),
-        u(n_u),
-        force(n_u) {
-    parallel_for(n_cells, [&](Index c) {
-      if (!damage.is_damageable(c)) return;
-      diagonal[c] = damage.diagonal(c, state.damage[c], state.driving_energy[c]);
-      root[c] = std::sqrt(diagonal[c]);
-      held[c] = answer[c] > at.lower[c] && answer[c] < 1.0 ? 0 : 1;
-    });
-  }
-
-  std::size_t size() const { return n_u + as_size((n_cells + 2) / 3); }
-  double& of(std::vector<Vector>& x, Index c) const { return x[n_u + as_size(c / 3)][c % 3]; }
-  double of(const std::vector<Vector>& x, Index c) const { return x[n_u + as_size(c / 3)][c % 3]; }
-  bool is_held(Index c) const { return held[c] != 0; }
-
-  void apply(const std::vector<Vector>& x, std::vector<Vector>& y) {
-    std::copy_n(x.begin(), n_u, u.begin());
-    parallel_for(n_cells, [&](Index c) { dd[c] = of(x, c) / root[c]; });
-    const StiffnessDamage& by = damage.stiffness_damage();
-    const CellField<double> mean = by.means(dd);
-    parallel_for(n_cells, [&](Index c) { dg[c] = g_prime[c] * mean[c]; });
-    coupling.apply(u, dg, force, energy);
-    parallel_for(n_cells, [&](Index c) { by_mean[c] = g_prime[c] * energy[c] + damage.mean_curvature(c) * mean[c]; });
-    const CellField<double> drive = by.spread(by_mean);
-    std::copy(force.begin(), force.end(), y.begin());
-    y.back().setZero();  // the last vector may have room for more cells than there are
-    parallel_for(n_cells, [&](Index c) {
-      const double own = diagonal[c] - damage.mean_diagonal(c);
-      const double fluxes = own * dd[c] - damage.coupling().times(c, dd.data());
-      of(y, c) = is_held(c) ? of(x, c) : (fluxes + drive[c]) / root[c];
-    });
-  }
-
-  void precondition(const std::vector<Vector>& r, std::vector<Vector>& z) {
-    parallel_for(n_cells, [&](Index c) {
-      r_d[c] = is_held(c) ? 0.0 : of(r, c) * root[c];
-      z_d[c] = 0.0;
-    });
-    const ConjugateGradients::Tolerance tolerance{
-        .reduction = damage_reduction, .least = 0.0, .most_iterations = most_damage_iterations};
-    by_damage.solve(diagonal, held, tolerance, r_d, z_d);
-    z.back().setZero();
-    parallel_for(n_cells, [&](Index c) { dd[c] = z_d[c]; });
-    const CellField<double> mean = damage.stiffness_damage().means(dd);
-    parallel_for(n_cells, [&](Index c) {
-      dg[c] = g_prime[c] * mean[c];
-      of(z, c) = is_held(c) ? of(r, c) : z_d[c] * root[c];
-    });
-    coupling.apply(dg, force);
-    parallel_for(count_of(force), [&](Index i) { force[i] = r[i] - force[i]; });
-    momentum.precondition(force, u);
-    std::copy(u.begin(), u.end(), z.begin());
-  }
-};
-
 bool CoupledNewton::suits(const Mesh& mesh, const Unknowns& unknowns) {
   return prefers_direct(mesh) && StiffnessCoupling::covers(mesh, unknowns);
 }
 
 CoupledNewton::Direction CoupledNewton::solve(const Iterate& at, const FractureState& state,
                                               const CellField<double>& answer) {
-  System system(*this, at, state, answer);
+  ConjugateGradients::Held held(mesh_.n_cells(), 1);
+  for (Index c = 0; c < mesh_.n_cells(); ++c)
+    if (damage_.is_damageable(c)) held[c] = answer[c] > at.lower[c] && answer[c] < 1.0 ? 0 : 1;
+  CoupledSystem system(momentum_, damage_, part_, state, std::move(held));
   // The first guess is the step of the alternation; cells that the answer puts on a bound go there.
   std::vector<Vector> b = momentum_.unbalanced_forces(state.load, state.displacement), x(system.size(), Vector::Zero());
   b.resize(system.size(), Vector::Zero());
-  for (Index c = 0; c < system.n_cells; ++c) {
-    system.of(x, c) = (answer[c] - state.damage[c]) * system.root[c];
+  for (Index c = 0; c < system.n_cells(); ++c) {
+    system.of(x, c) = (answer[c] - state.damage[c]) * system.root(c);
     system.of(b, c) = system.is_held(c) ? system.of(x, c)
-                                        : -damage_.imbalance(c, state.damage, state.driving_energy[c]) / system.root[c];
+                                        : -damage_.imbalance(c, state.damage, state.driving_energy[c]) / system.root(c);
   }
-  std::vector<double> scale = momentum_.row_scale();
-  scale.resize(system.size(), 1.0);
-  const KrylovProblem problem{
-      .apply = [&](const std::vector<Vector>& from, std::vector<Vector>& to) { system.apply(from, to); },
-      .precondition = [&](const std::vector<Vector>& r, std::vector<Vector>& z) { system.precondition(r, z); },
-      .scale = std::move(scale),
-      .restart_length = most_iterations};
-  const auto target = [](double initial) { return reduction * initial; };
-  krylov_iterations_ = solve_fgmres(problem, b, x, target, most_iterations).iterations;
-  Direction direction{.u = {x.begin(), x.begin() + static_cast<std::ptrdiff_t>(system.n_u)},
-                      .d = CellField<double>(system.n_cells)};
-  for (Index c = 0; c < system.n_cells; ++c) direction.d[c] = system.of(x, c) / system.root[c];
+  krylov_iterations_ = system.solve(b, reduction, most_iterations, x).iterations;
+  Direction direction{.u = {x.begin(), x.begin() + static_cast<std::ptrdiff_t>(system.n_displacements())},
+                      .d = CellField<double>(system.n_cells())};
+  for (Index c = 0; c < system.n_cells(); ++c) direction.d[c] = system.of(x, c) / system.root(c);
   direction.slope = -parallel_sum(count_of(x), [&](Index i) { return b[i].dot(x[i]); });
-  direction.largest = parallel_max(system.n_cells, [&](Index c) { return std::abs(direction.d[c]); });
+  direction.largest = parallel_max(system.n_cells(), [&](Index c) { return std::abs(direction.d[c]); });
   return direction;
 }
 

@@ -6,8 +6,7 @@
 //   [ A         dA/dd u ] [du]   [ load - A u ]
 //   [ g' dE/du  H       ] [dd] = [ -imbalance ]     of the cells that the answer does not put on a bound,
 //
-// are solved by FGMRES. Preconditioner: the damage equation's conjugate gradients, then one cycle of the momentum
-// balance's preconditioner with the forces of that dd. Steps are as long as the largest change of damage that was good
+// are solved by FGMRES (coupled_system.h). Steps are as long as the largest change of damage that was good
 // the last times, and are taken back if they raise the energy. Where the system is indefinite and its solution leads
 // uphill, towards an unstable equilibrium, the opposite direction is a descent of negative curvature.
 
@@ -45,7 +44,6 @@ class CoupledNewton {
   Index krylov_iterations() const { return krylov_iterations_; }  ///< of the last move
 
  private:
-  struct System;
   struct Direction {
     std::vector<Vector> u;
     CellField<double> d;

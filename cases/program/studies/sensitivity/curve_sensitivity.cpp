@@ -9,7 +9,6 @@
 namespace pfdm {
 namespace {
 
-constexpr double least_force = 0.01;  // of the largest
 constexpr double share_of_doubt = 0.05, least_doubt = 0.01;
 
 /// ln(plus/minus), over which a power law is straight; of numbers that are not of one sign their difference over
@@ -91,6 +90,13 @@ BaseEvent base_event(const SampledCurve& base, EventKind kind, std::optional<int
 
 }  // namespace
 
+double least_force(const SampledCurve& curve) {
+  constexpr double share = 0.01;
+  double largest = 0.0;
+  for (const double force : curve.y) largest = std::max(largest, std::abs(force));
+  return share * largest;
+}
+
 bool Elasticity::is_doubtful() const {
   return is_known() && error > std::max(share_of_doubt * std::abs(value), least_doubt);
 }
@@ -99,11 +105,10 @@ std::vector<Elasticity> elasticities(const SampledCurve& base, const CurvesAroun
   std::vector<CurveBranches> branches;
   for (const SampledCurve& curve : around.curves) branches.emplace_back(curve);
   const CurveBranches own(base);
-  double largest = 0.0;
-  for (const double force : base.y) largest = std::max(largest, std::abs(force));
+  const double least = least_force(base);
   std::vector<Elasticity> found(base.x.size());
   for (std::size_t i = 0; i < base.x.size(); ++i) {
-    if (std::abs(base.y[i]) < least_force * largest) continue;
+    if (std::abs(base.y[i]) < least) continue;
     const auto here = own.at(base.x[i]);
     std::array<double, 4> values{};
     bool are_there = here.has_value();

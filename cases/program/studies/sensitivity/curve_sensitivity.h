@@ -25,8 +25,11 @@ struct Elasticity {
   bool is_doubtful() const;
 };
 
+/// A hundredth of the largest force in magnitude [N]: elasticities of less are not told.
+double least_force(const SampledCurve& curve);
+
 /// At each row of `base`. Unknown where a jump lies between the curves, where one of them does not reach, and where the
-/// force is below a hundredth of its largest.
+/// force is below least_force().
 std::vector<Elasticity> elasticities(const SampledCurve& base, const CurvesAround& around);
 
 /// A figure of an event of the base curve.

@@ -47,18 +47,54 @@ std::vector<CaseVariant> variants_of(const SensitivityJob& job, const std::vecto
 }
 
 ParameterSensitivity differentiated(const CaseParameter& parameter, std::span<const DoneRun> runs,
-                                    const SensitivityJob& job, const CaseSensitivity& found) {
+                                    const SensitivityJob& job, double step, const CaseSensitivity& found) {
   ParameterSensitivity result{.parameter = parameter};
   const auto failed = std::ranges::find_if(runs, [](const DoneRun& run) { return !run.went_well(); });
   if (failed != runs.end()) {
     result.failure = failed->failure;
     return result;
   }
-  CurvesAround around{.step = found.step, .curves = {}};
+  CurvesAround around{.step = step, .curves = {}};
   for (std::size_t k = 0; k < runs.size(); ++k) around.curves[k] = job.read_curve(runs[k].folder);
   result.curve = elasticities(found.curve, around);
   for (const BaseEvent& event : found.events) result.events.push_back(elasticities(event, around));
   return result;
+}
+
+void with_differences(const SensitivityJob& job, const std::vector<CaseParameter>& parameters, Session& session,
+                      CaseSensitivity& found) {
+  CaseRuns runs(session.results / "runs", session);
+  const std::vector<DoneRun> done = runs.run(variants_of(job, parameters, session.sensitivity.step));
+  if (!done.front().went_well())
+    throw ComputationError(fmt::format("the case itself does not come to its end: {}", done.front().failure));
+  found.curve = job.read_curve(done.front().folder);
+  found.events = events_of(found.curve);
+  for (std::size_t j = 0; j < parameters.size(); ++j)
+    found.parameters.push_back(
+        differentiated(parameters[j], std::span(done).subspan(1 + shares_of_step.size() * j, shares_of_step.size()),
+                       job, session.sensitivity.step, found));
+  session.log.say(fmt::format("{} runs made, {} reused", runs.n_made(), runs.n_reused()));
+}
+
+void directly(const SensitivityJob& job, const std::vector<CaseParameter>& parameters, Session& session,
+              CaseSensitivity& found) {
+  const DirectSensitivity direct = job.direct(parameters, session);
+  found.curve = direct.curve;
+  found.events = events_of(found.curve);
+  for (std::size_t j = 0; j < parameters.size(); ++j) {
+    ParameterSensitivity& p =
+        found.parameters.emplace_back(ParameterSensitivity{.parameter = parameters[j], .failure = direct.failures[j]});
+    if (!p.failure.empty()) continue;
+    p.curve = elasticities(direct, j);
+    for (const BaseEvent& event : found.events) p.events.push_back(elasticities(direct, j, event));
+  }
+  session.log.say(fmt::format("processor time {:.1f} s of the run, {:.1f} s of its derivatives", direct.seconds_of_run,
+                              direct.seconds_more));
+}
+
+std::string words_on_method(const SensitivityWords& words) {
+  if (words.method == "direct") return "direct differentiation of one run";
+  return fmt::format("differences of {:g} % and {:g} %", 100.0 * words.step, 50.0 * words.step);
 }
 
 }  // namespace
@@ -69,34 +105,24 @@ void run_sensitivity(const SensitivityJob& job, Session& session) {
                         .title = job.title,
                         .version = session.version,
                         .hash = job.hash,
-                        .step = session.sensitivity.step,
+                        .method = words_on_method(session.sensitivity),
                         .curve = {},
                         .events = {},
                         .parameters = {},
                         .remarks = {}};
   const std::vector<CaseParameter> parameters = parameters_of(job, session, found.remarks);
-  const std::vector<CaseVariant> variants = variants_of(job, parameters, found.step);
   const FolderLock lock(session.results);
   session.log.say(
-      head_line(session, fmt::format("sensitivity of {}: {} by differences of {:g} % and {:g} %, {}", job.name,
-                                     counted(static_cast<Index>(parameters.size()), "parameter"), 100.0 * found.step,
-                                     50.0 * found.step, counted(static_cast<Index>(variants.size()), "run"))));
+      head_line(session, fmt::format("sensitivity of {} to {} by {}", job.name,
+                                     counted(static_cast<Index>(parameters.size()), "parameter"), found.method)));
   session.log.open_file(session.results / "sensitivity.log", true);
-  CaseRuns runs(session.results / "runs", session);
-  const std::vector<DoneRun> done = runs.run(variants);
-  if (!done.front().went_well())
-    throw ComputationError(fmt::format("the case itself does not come to its end: {}", done.front().failure));
-  found.curve = job.read_curve(done.front().folder);
-  found.events = events_of(found.curve);
-  for (std::size_t j = 0; j < parameters.size(); ++j)
-    found.parameters.push_back(differentiated(
-        parameters[j], std::span(done).subspan(1 + shares_of_step.size() * j, shares_of_step.size()), job, found));
+  (session.sensitivity.method == "direct" ? directly : with_differences)(job, parameters, session, found);
   conclude(found);
   write_sensitivity(session.results, found);
   for (const std::string& line : words_of(found)) session.log.say(line);
   for (const std::string& remark : found.remarks) session.log.warn(remark);
-  session.log.say(fmt::format("{} runs made, {} reused; {:.1f} s; written to {} and {}", runs.n_made(), runs.n_reused(),
-                              watch.seconds(), (session.results / sensitivity_json).string(), sensitivity_file));
+  session.log.say(fmt::format("{:.1f} s; written to {} and {}", watch.seconds(),
+                              (session.results / sensitivity_json).string(), sensitivity_file));
   report_sensitivity(found, session);
 }
 

@@ -115,10 +115,10 @@ Table events_table(const CaseSensitivity& found, std::span<const ParameterSensit
 
 ReportPage sensitivity_page(const CaseSensitivity& found) {
   const DisplayUnit x = common_unit({{found.curve.x}}, "m");
-  ReportPage page{.title = fmt::format("{}: {}", found.name, found.title),
-                  .subtitle = fmt::format("pfdm {}, case {}, sensitivity by differences of {:g} % and {:g} %",
-                                          found.version, found.hash, 100.0 * found.step, 50.0 * found.step),
-                  .rows = {}};
+  ReportPage page{
+      .title = fmt::format("{}: {}", found.name, found.title),
+      .subtitle = fmt::format("pfdm {}, case {}, sensitivity by {}", found.version, found.hash, found.method),
+      .rows = {}};
   page.rows.push_back({.blocks = {force_chart(found, x)}});
   page.rows.push_back({.blocks = {elasticity_chart(found, x)}, .height = 1.3});
   page.rows.push_back({.blocks = {parameters_table(found)}});

@@ -151,10 +151,10 @@ void conclude(CaseSensitivity& found) {
     if (!p.failure.empty()) found.remarks.push_back(fmt::format("none by {}: {}", p.parameter.name, p.failure));
   if (const std::size_t n = count(found, [](const Elasticity& e) { return e.is_doubtful(); }))
     found.remarks.push_back(fmt::format(
-        "{} elasticities are doubtful (?): differences with the steps {:g} % and {:g} % disagree, or load steps hide "
-        "the change. Take shorter load steps (loading.maximum_increment; about jumps loading.energy_release with "
+        "{} elasticities are doubtful (?): differences with whole and half step disagree, or load steps hide the "
+        "change. Take shorter load steps (loading.maximum_increment; about jumps loading.energy_release with "
         "loading.finest_increment), a longer --step, or a smaller solver.damage_tolerance",
-        n, 100.0 * found.step, 50.0 * found.step));
+        n));
 }
 
 std::string short_name(const CaseParameter& parameter) {
@@ -170,8 +170,8 @@ std::string text_of(const Elasticity& elasticity) {
 void write_sensitivity(const std::filesystem::path& folder, const CaseSensitivity& found) {
   Json parameters = Json::array();
   for (const ParameterSensitivity& p : found.parameters) parameters.push_back(json_of(p, found.curve));
-  const Json json{{"case", found.name},          {"case_hash", found.hash},  {"version", found.version},
-                  {"relative_step", found.step}, {"parameters", parameters}, {"events", events_of(found)},
+  const Json json{{"case", found.name},      {"case_hash", found.hash},  {"version", found.version},
+                  {"method", found.method},  {"parameters", parameters}, {"events", events_of(found)},
                   {"remarks", found.remarks}};
   write_csv(folder / sensitivity_file, table_of(found));
   write_file(folder / sensitivity_json, json_text(json));

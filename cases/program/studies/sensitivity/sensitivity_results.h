@@ -30,7 +30,7 @@ struct ParameterSensitivity {
 
 struct CaseSensitivity {
   std::string name, title, version, hash;  ///< of the case
-  double step = 0.0;                       ///< relative
+  std::string method;                      ///< in words
   SampledCurve curve;
   std::vector<BaseEvent> events;
   std::vector<ParameterSensitivity> parameters;  ///< that which moves the curve most first

@@ -1,0 +1,33 @@
+#pragma once
+// Elasticities of a curve and of its events out of derivatives of the states of one run.
+
+#include "cases/program/studies/sensitivity/curve_sensitivity.h"
+
+#include <string>
+#include <vector>
+
+namespace pfdm {
+
+/// Derivatives at a row of the curve, by ln p or ln t at fixed load t.
+struct RowDerivative {
+  double force = 0.0;         ///< [N]
+  double displacement = 0.0;  ///< [m]
+  double load_of_jump = 0.0;  ///< d ln t/d ln p of the jump that may follow
+  double unsolved = 0.0;      ///< share that the linear equations left
+};
+
+struct DirectSensitivity {
+  SampledCurve curve;
+  std::vector<RowDerivative> by_load;               ///< at each row
+  std::vector<std::vector<RowDerivative>> by;       ///< of each parameter
+  std::vector<std::string> failures;                ///< of each parameter; empty: there is none
+  double seconds_of_run = 0.0, seconds_more = 0.0;  ///< of the processor
+};
+
+/// At each row, at fixed displacement. Unknown where the force is below a hundredth of its largest.
+std::vector<Elasticity> elasticities(const DirectSensitivity& direct, std::size_t parameter);
+
+/// Of each quantity of an event: a smooth peak from the rows about it, a jump from the last state before it.
+std::vector<Elasticity> elasticities(const DirectSensitivity& direct, std::size_t parameter, const BaseEvent& event);
+
+}  // namespace pfdm

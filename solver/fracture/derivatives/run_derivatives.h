@@ -1,0 +1,69 @@
+#pragma once
+// Derivatives of the states of a run by parameters of its model, direct differentiation: at an accepted state, with
+// the damage held that is on a bound, R(u, d; p) = 0 gives
+//
+//   [A_uu A_ud; A_du A_dd] (u', d') = -(dR_u/dp, dR_d/dp)
+//
+// (Kleiber, Antunez, Hien, Kowalczyk, Parameter Sensitivity in Nonlinear Mechanics, 1997, ch. 4). The right side is the
+// difference of R between two models at the one state, so that every law enters by its own evaluation; held damage and
+// the histories of cohesive faces bring their derivative from the step before. The matrix may be inexact: R of the
+// other model at the state moved by u', d' tells what is left, and is solved for again.
+//
+// A jump begins where the matrix is singular. With its null vector l and the load t the jump is at
+// l.(R_p + R_t t') = 0; l is found by inverse iteration from the derivative by the load, and the matrix is symmetric
+// but for what the discrete gradients are not.
+
+#include "solver/fracture/derivatives/unbalanced.h"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace pfdm {
+
+class CoupledSystem;
+
+class RunDerivatives {
+ public:
+  /// Why a run has no such derivatives, as the end of a sentence "... has"; empty if it has.
+  static std::string refusal(const Mesh& mesh, const FractureModel& model, const LoadingSettings& loading);
+
+  /// Keeps a reference to the mesh.
+  RunDerivatives(const Mesh& mesh, const FractureModel& model, const StaggeredSettings& settings);
+  ~RunDerivatives();
+  /// One more parameter: the model with its value greater by the relative `step`, small. Throws InputError if that
+  /// model has other unknowns.
+  void add(const FractureModel& shifted, double step);
+
+  /// After an accepted step from `start` to `state`.
+  void follow(const FractureState& start, const FractureState& state);
+
+  /// Of the last step, by ln p at fixed load.
+  struct Derivative {
+    std::vector<Vector> boundary_force;      ///< on each boundary face [N]
+    std::vector<Vector> patch_displacement;  ///< area mean on each patch [m]
+    std::vector<Vector> displacement;        ///< [m]
+    CellField<double> damage;                ///< [-]
+    double load_of_jump = 0.0;               ///< d ln t/d ln p of the jump that may follow
+    double unsolved = 0.0;                   ///< share of the right side that is left
+    Index iterations = 0;                    ///< of FGMRES
+  };
+  const Derivative& by(std::size_t parameter) const;
+  const Derivative& by_load() const;  ///< by ln t
+
+ private:
+  struct Model;
+  struct Parameter;
+  std::unique_ptr<Parameter> parameter(const FractureModel& model, double step, bool is_load);
+  void differentiate(const FractureState& start, const FractureState& state, const Unbalanced& base,
+                     CoupledSystem& system, Parameter& parameter);
+  void find_jumps(CoupledSystem& system);
+
+  const Mesh& mesh_;
+  StaggeredSettings settings_;
+  std::unique_ptr<Model> base_;
+  std::unique_ptr<Parameter> load_;
+  std::vector<std::unique_ptr<Parameter>> parameters_;
+};
+
+}  // namespace pfdm
