@@ -13,7 +13,8 @@ namespace pfdm {
 namespace {
 
 constexpr double load_step = 1e-5;                         // relative, of the derivative by the load
-constexpr double least_unsolved = 1e-7, reduction = 1e-4;  // of the right side, in all and by a solution
+constexpr double least_unsolved = 3e-5, reduction = 1e-5;  // of the right side, in all and by a solution
+constexpr double null_reduction = 1e-2;                    // by an inverse iteration
 constexpr int most_refinements = 6;
 constexpr Index most_iterations = 300;
 
@@ -41,14 +42,16 @@ struct RunDerivatives::Parameter {
   double step;
   bool is_load;
   Derivative derivative{};
-  std::vector<InterfaceHistory> interfaces;  // of the shifted model, before the step
+  std::vector<InterfaceHistory> interfaces, earlier;  // of the shifted model, before the step and the one before it
   std::vector<Vector> right_side{}, answer{};
+  double regular_load = 0.0;  // change of ln t by ln p with which the answer has no part along that by the load
 
   Parameter(const Mesh& mesh, const FractureModel& model, const StaggeredSettings& settings, double by, bool of_load)
       : shifted(mesh, model, settings),
         step(by),
         is_load(of_load),
-        interfaces(shifted.staggered.faces().virgin_histories()) {
+        interfaces(shifted.staggered.faces().virgin_histories()),
+        earlier(interfaces) {
     derivative.damage = CellField<double>(mesh.n_cells(), 0.0);
   }
 };
@@ -99,8 +102,16 @@ void RunDerivatives::add(const FractureModel& shifted, double step) {
 const RunDerivatives::Derivative& RunDerivatives::by(std::size_t k) const { return parameters_[k]->derivative; }
 const RunDerivatives::Derivative& RunDerivatives::by_load() const { return load_->derivative; }
 
-void RunDerivatives::follow(const FractureState& start, const FractureState& state) {
+Index RunDerivatives::iterations() const {
+  Index n = load_->derivative.iterations;
+  for (const auto& p : parameters_) n += p->derivative.iterations;
+  return n;
+}
+
+void RunDerivatives::follow(const FractureState& start, const FractureState& state, bool jumped) {
   Staggered& staggered = base_->staggered;
+  if (jumped && !load_->answer.empty())
+    for (const auto& p : parameters_) go_to_jump(start, *p);
   const Unbalanced base = unbalanced_of(staggered, state, start.interfaces);
   std::vector<Vector> unchanged = state.displacement;  // the solution makes the preconditioner
   staggered.momentum().solve(state.load, {.reduction = 1.0, .ceiling = 1.0, .floor = 1.0, .most_iterations = 0},
@@ -165,17 +176,30 @@ void RunDerivatives::differentiate(const FractureState& start, const FractureSta
   const std::vector<Vector> unmoved = balance.patch_displacements(state.displacement);
   for (std::size_t i = 0; i < unmoved.size(); ++i)
     found.patch_displacement[i] = (found.patch_displacement[i] - unmoved[i]) / p.step;
-  p.interfaces = std::move(rest.interfaces);
+  p.earlier = std::exchange(p.interfaces, std::move(rest.interfaces));
   p.answer = std::move(x);
   p.derivative = std::move(found);
+}
+
+void RunDerivatives::go_to_jump(const FractureState& last, Parameter& p) const {
+  const double load = p.regular_load;
+  const Derivative& by_load = load_->derivative;
+  std::vector<Vector> u = last.displacement;
+  for (std::size_t i = 0; i < u.size(); ++i)
+    u[i] += p.step * (p.derivative.displacement[i] + load * by_load.displacement[i]);
+  for (Index c = 0; c < mesh_.n_cells(); ++c) p.derivative.damage[c] += load * by_load.damage[c];
+  const Staggered& staggered = p.shifted.staggered;
+  staggered.faces().advance(staggered.balance(), u, p.earlier, p.interfaces);
 }
 
 void RunDerivatives::find_jumps(CoupledSystem& system) {
   const std::vector<double> scale = system.scale();
   std::vector<Vector> b = load_->answer, null(system.size(), Vector::Zero());
   for (std::size_t i = 0; i < b.size(); ++i) b[i] /= scale[i] * scale[i];  // in the norm of the diagonal
-  system.solve(b, reduction, most_iterations, null);
+  system.solve(b, null_reduction, most_iterations, null);
   const double by_load = dot(null, load_->right_side);
+  const double square = dot(b, load_->answer);
+  for (const auto& p : parameters_) p->regular_load = square > 0.0 ? -dot(b, p->answer) / square : 0.0;
   for (const auto& p : parameters_)
     p->derivative.load_of_jump = by_load != 0.0 ? -dot(null, p->right_side) / by_load : 0.0;
 }

@@ -35,8 +35,9 @@ class RunDerivatives {
   /// model has other unknowns.
   void add(const FractureModel& shifted, double step);
 
-  /// After an accepted step from `start` to `state`.
-  void follow(const FractureState& start, const FractureState& state);
+  /// After an accepted step from `start` to `state`. `jumped`: a jump lies between them. What the jump leaves as it
+  /// was, held damage and separations that were reached before, then has the derivative along the jump's load.
+  void follow(const FractureState& start, const FractureState& state, bool jumped = false);
 
   /// Of the last step, by ln p at fixed load.
   struct Derivative {
@@ -50,6 +51,7 @@ class RunDerivatives {
   };
   const Derivative& by(std::size_t parameter) const;
   const Derivative& by_load() const;  ///< by ln t
+  Index iterations() const;           ///< of FGMRES, for all of them in the last step
 
  private:
   struct Model;
@@ -58,6 +60,7 @@ class RunDerivatives {
   void differentiate(const FractureState& start, const FractureState& state, const Unbalanced& base,
                      CoupledSystem& system, Parameter& parameter);
   void find_jumps(CoupledSystem& system);
+  void go_to_jump(const FractureState& last, Parameter& parameter) const;
 
   const Mesh& mesh_;
   StaggeredSettings settings_;

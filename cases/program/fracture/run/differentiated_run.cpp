@@ -1,12 +1,15 @@
 #include "cases/program/fracture/run/differentiated_run.h"
 
 #include "cases/program/session/terminal/stop_signal.h"
+#include "postproc/curves/curve_jumps.h"
 #include "postproc/curves/summary.h"
 #include "solver/fracture/derivatives/run_derivatives.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 
 namespace pfdm {
 namespace {
@@ -38,6 +41,19 @@ struct CurveOfRun {
     return found;
   }
 };
+
+/// Whether the force fell at once in the last step.
+bool has_jumped(const std::vector<CurveRow>& rows, int component) {
+  double largest = 0.0;
+  for (const CurveRow& row : rows) largest = std::max(largest, std::abs(row.force[component]));
+  return rows[rows.size() - 2].force[component] - rows.back().force[component] > fall_of_jump * largest;
+}
+
+/// Outside of it signals end the program at once.
+StepReport step_of(FractureRun& run, FractureState& state) {
+  const LooksForStop looks;
+  return run.step(state, [](const IterationReport&) { stop_if_asked(); });
+}
 
 CurveOfRun curve_of(const FractureProgram& program, const Mesh& mesh) {
   const CurveSettings& curve = program.fracture.output.curve;
@@ -84,19 +100,19 @@ DirectSensitivity differentiated_run(const FractureProgram& program, std::span<c
   std::vector<CurveRow> rows{curve_row(run.report_of(state), curve.patch, curve.component)};
   found.by_load.emplace_back();
   found.by.assign(parameters.size(), std::vector<RowDerivative>(1));
-  const LooksForStop looks;
   while (!run.is_complete(state)) {
     const double began = cpu_seconds();
     const FractureState start = state;
-    const StepReport report = run.step(state, [](const IterationReport&) { stop_if_asked(); });
+    const StepReport report = step_of(run, state);
     rows.push_back(curve_row(report, curve.patch, curve.component));
     const double stepped = cpu_seconds();
-    derivatives.follow(start, state);
+    derivatives.follow(start, state, has_jumped(rows, curve.component));
     found.by_load.push_back(curve.row(derivatives.by_load()));
     for (std::size_t k = 0; k < added.size(); ++k) found.by[added[k]].push_back(curve.row(derivatives.by(k)));
     found.seconds_of_run += stepped - began;
     found.seconds_more += cpu_seconds() - stepped;
-    session.log.progress(fmt::format("step {}, load {:.4g} of {:.4g}", state.step, state.load, fracture.loading.end));
+    session.log.step(fmt::format("  step {}: load {:.6g} of {:.6g}, {} iterations of the derivatives", state.step,
+                                 state.load, fracture.loading.end, derivatives.iterations()));
   }
   for (const CurveRow& row : rows) {
     if (!found.curve.x.empty() && row.displacement < found.curve.x.back())

@@ -1,7 +1,11 @@
 #include "cases/program/studies/sensitivity/direct_sensitivity.h"
 
+#include "cases/program/studies/sensitivity/curve_branches.h"
+
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <span>
 #include <utility>
 
 namespace pfdm {
@@ -16,26 +20,66 @@ double at_fixed_displacement(const RowDerivative& by, const RowDerivative& by_lo
   return by.displacement == 0.0 ? by.force : by.force - by_load.force * by.displacement / by_load.displacement;
 }
 
-/// First and second derivative at the middle one of three points.
-std::pair<double, double> derivatives_at(const double* x, const double* y) {
-  const double left = x[1] - x[0], right = x[2] - x[1], a = (y[1] - y[0]) / left, b = (y[2] - y[1]) / right;
-  return {(a * right + b * left) / (left + right), 2.0 * (b - a) / (left + right)};
+/// Value, slope and curvature at `at` of the polynomial through some points.
+std::array<double, 3> polynomial(std::span<const double> x, std::vector<double> y, double at) {
+  const std::size_t n = x.size();
+  for (std::size_t k = 1; k < n; ++k)  // divided differences
+    for (std::size_t i = n - 1; i >= k; --i) y[i] = (y[i] - y[i - 1]) / (x[i] - x[i - k]);
+  std::array<double, 3> sums{};
+  for (std::size_t i = n; i-- > 0;) {
+    const double apart = at - x[i];
+    sums[2] = sums[2] * apart + 2.0 * sums[1];
+    sums[1] = sums[1] * apart + sums[0];
+    sums[0] = sums[0] * apart + y[i];
+  }
+  return sums;
+}
+
+/// Rows about a peak on its branch, two to each side at most.
+std::pair<std::size_t, std::size_t> rows_about(const SampledCurve& curve, std::size_t row) {
+  const CurveBranches branches(curve);
+  std::size_t first = row, last = row;
+  for (int k = 0; k < 2; ++k) {
+    if (first > 0 && branches.branch_of(first - 1) == branches.branch_of(row)) --first;
+    if (last + 1 < curve.x.size() && branches.branch_of(last + 1) == branches.branch_of(row)) ++last;
+  }
+  return {first, last};
 }
 
 /// Of the displacement and the force of a peak between jumps, at which the force has no slope.
 std::vector<Elasticity> of_peak(const DirectSensitivity& direct, std::size_t j, std::size_t row,
                                 const BaseEvent& event) {
-  std::array<double, 3> change{};
-  for (std::size_t k = 0; k < change.size(); ++k)
-    change[k] = at_fixed_displacement(direct.by[j][row - 1 + k], direct.by_load[row - 1 + k]);
-  const double* const x = &direct.curve.x[row - 1];
-  const auto [slope, curvature] = derivatives_at(x, change.data());
-  const double force_curvature = derivatives_at(x, &direct.curve.y[row - 1]).second;
-  const double apart = event.quantities[0].value - direct.curve.x[row];
-  const double unsolved = direct.by[j][row].unsolved;
-  const double force = change[1] + apart * (slope + 0.5 * apart * curvature);
-  return {elasticity_of(-(slope + apart * curvature) / force_curvature, event.quantities[0].value, unsolved),
-          elasticity_of(force, event.quantities[1].value, unsolved)};
+  const auto [first, last] = rows_about(direct.curve, row);
+  if (first == row || last == row) return std::vector<Elasticity>(event.quantities.size());
+  std::vector<double> change;
+  for (std::size_t i = first; i <= last; ++i)
+    change.push_back(at_fixed_displacement(direct.by[j][i], direct.by_load[i]));
+  const std::span<const double> x = std::span(direct.curve.x).subspan(first, last - first + 1);
+  const auto begin = direct.curve.y.begin() + static_cast<std::ptrdiff_t>(first);
+  const double at = event.quantities[0].value, unsolved = direct.by[j][row].unsolved;
+  const auto of_change = polynomial(x, change, at);
+  const double curvature = polynomial(x, {begin, begin + static_cast<std::ptrdiff_t>(x.size())}, at)[2];
+  return {elasticity_of(-of_change[1] / curvature, at, unsolved),
+          elasticity_of(of_change[0], event.quantities[1].value, unsolved)};
+}
+
+/// Of a jump: its displacement and the forces on both sides. The last states before it are next to singular: the force
+/// before it is that of the last one whose equations were solved.
+std::vector<Elasticity> of_jump(const DirectSensitivity& direct, std::size_t j, const ComputedEvent& jump,
+                                const BaseEvent& event) {
+  constexpr double well_solved = 1e-4;
+  const std::vector<RowDerivative>&by = direct.by[j], &by_load = direct.by_load;
+  const double load = by[jump.before].load_of_jump;
+  const double earlier = jump.before > 0 ? by[jump.before - 1].load_of_jump : 0.0;
+  std::size_t row = jump.before;
+  while (row > 1 && std::max(by[row].unsolved, by_load[row].unsolved) > well_solved) --row;
+  std::vector<Elasticity> found{
+      elasticity_of(by[row].displacement + load * by_load[row].displacement, direct.curve.x[row], 0.0),
+      elasticity_of(by[row].force + by[row].load_of_jump * by_load[row].force, direct.curve.y[row], by[row].unsolved),
+      elasticity_of(by[jump.after].force + load * by_load[jump.after].force, event.quantities[2].value,
+                    by[jump.after].unsolved)};
+  found[0].error = std::abs(load - earlier);
+  return found;
 }
 
 }  // namespace
@@ -53,20 +97,10 @@ std::vector<Elasticity> elasticities(const DirectSensitivity& direct, std::size_
 
 std::vector<Elasticity> elasticities(const DirectSensitivity& direct, std::size_t parameter, const BaseEvent& event) {
   const ComputedEvent computed = computed_event(event.event, direct.curve);
-  const bool is_jump =
-      computed_event({.kind = EventKind::jump}, direct.curve).is_there && event.event.kind == EventKind::jump;
-  if (!is_jump) {
-    const std::size_t row = computed.before;
-    if (event.event.kind == EventKind::greatest_force && row > 0 && row + 1 < direct.curve.x.size())
-      return of_peak(direct, parameter, row, event);
+  if (!computed.is_there || event.event.kind == EventKind::first_debonding)
     return std::vector<Elasticity>(event.quantities.size());
-  }
-  const RowDerivative &before = direct.by[parameter][computed.before], &by_load = direct.by_load[computed.before],
-                      &after = direct.by[parameter][computed.after], &load_after = direct.by_load[computed.after];
-  const double load = before.load_of_jump;
-  return {elasticity_of(before.displacement + load * by_load.displacement, event.displacement, before.unsolved),
-          elasticity_of(before.force + load * by_load.force, event.quantities[1].value, before.unsolved),
-          elasticity_of(after.force + load * load_after.force, event.quantities[2].value, after.unsolved)};
+  return event.event.kind == EventKind::jump ? of_jump(direct, parameter, computed, event)
+                                             : of_peak(direct, parameter, computed.before, event);
 }
 
 }  // namespace pfdm

@@ -1,0 +1,117 @@
+// pfdm sensitivity --method direct, against closed forms and against differences.
+
+#include "postproc/files/csv_table.h"
+#include "tests/cases/sensitivities.h"
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+namespace pfdm::this_file {
+namespace {
+
+using ::testing::HasSubstr;
+
+const std::vector<std::string> direct{"--method", "direct"};
+
+TEST(DirectSensitivity, OfABarThatSoftensEvenlyHasItsClosedForm) {
+  const TemporaryCase directory(short_bar());
+  const auto found = found_in(directory, direct);
+  const CsvTable table = read_csv(directory.results() / "sensitivity.csv", {.has_gaps = true});
+  const std::vector<double>& u = table.column("displacement_m");
+  ASSERT_EQ(u.size(), 51u);
+  for (const auto& [key, value] : bar_values) {
+    const std::vector<double>& e = table.column("elasticity_" + key);
+    for (std::size_t i = 1; i < u.size(); ++i) {
+      const double due = elasticity_of([&](const Values& p) { return force_of_bar(p, u[i]); }, bar_values, key);
+      EXPECT_NEAR(e[i], due, 5e-5 * std::max(1.0, std::abs(due))) << key << " at " << u[i];
+    }
+  }
+  const std::map<std::string, double> of_force{{E_key, 0.5}, {Gc_key, 0.5}, {ell_key, -0.5}};
+  for (const auto& [key, due] : of_force) {
+    EXPECT_NEAR(value_of(found, "greatest force", "force", key), due, 1e-3) << key;
+    EXPECT_NEAR(value_of(found, "greatest force", "displacement", key), key == E_key ? -0.5 : due, 5e-3) << key;
+  }
+  EXPECT_FALSE(std::filesystem::exists(directory.results() / "runs"));
+}
+
+/// So long that its damage gathers in the weak middle, and it jumps.
+std::string long_bar() {
+  std::string text = replaced(bar_case(), "cells = 21", "cells = 41");
+  text = replaced(text, "\"AT1\"", "\"AT2\"");
+  text = replaced(text, "\"4 mm\"", "\"2 mm\"");
+  text = replaced(text, "0.015 mm", "0.018 mm");
+  text = replaced(text, "\ninitial_increment = 0.1",
+                  "\nenergy_release = 0.02\nfinest_increment = 1e-5\ninitial_increment = 0.0025");
+  text = replaced(text, "\nmaximum_increment = 0.1", "\nmaximum_increment = 0.0025");
+  return text +
+         "[solver]\ndamage_tolerance = 1e-7\nenergy_tolerance = 1e-9\nequilibrium_tolerance = 1e-8\nmaximum_iterations "
+         "= 20000\n";
+}
+
+const std::string concrete_E = "materials.concrete.young_modulus", weak_Gc = "regions.weak.toughness";
+
+// Up to the peak and past it, as long as both steps of the differences agree.
+TEST(DirectSensitivity, OfABarThatBreaksIsThatOfDifferences) {
+  const TemporaryCase one(long_bar()), other(long_bar());
+  const auto found = found_in(one, direct);
+  const auto differences = found_in(other, {"--step", "0.002"});
+  const CsvTable by_one = read_csv(one.results() / "sensitivity.csv", {.has_gaps = true}),
+                 by_other = read_csv(other.results() / "sensitivity.csv", {.has_gaps = true});
+  const std::size_t peak =
+      static_cast<std::size_t>(std::ranges::max_element(by_one.column("force_N")) - by_one.column("force_N").begin());
+  for (const char* key : {"materials.concrete.young_modulus", "materials.concrete.poisson_ratio",
+                          "materials.concrete.toughness", "regions.weak.toughness", "fracture.length"}) {
+    const std::vector<double>&e = by_one.column(std::string("elasticity_") + key),
+          &due = by_other.column(std::string("elasticity_") + key),
+          &error = by_other.column(std::string("error_") + key);
+    std::size_t n = 0;
+    for (std::size_t i = 1; i < e.size(); ++i) {
+      if (!(error[i] < 3e-5)) continue;
+      EXPECT_NEAR(e[i], due[i], 1e-4 * std::max(1.0, std::abs(due[i]))) << key << " in row " << i;
+      ++n;
+    }
+    EXPECT_GT(n, peak) << key;  // rows beyond the peak are among them
+  }
+  // u (E/Gc)^(1/2) is alone what equilibrium depends on.
+  EXPECT_NEAR(value_of(found, "jump 1", "displacement", concrete_E), -0.5, 0.02);
+  EXPECT_NEAR(value_of(found, "jump 1", "displacement", "materials.concrete.toughness") +
+                  value_of(found, "jump 1", "displacement", weak_Gc),
+              0.5, 0.02);
+  EXPECT_NEAR(value_of(found, "jump 1", "displacement", weak_Gc),
+              value_of(differences, "jump 1", "displacement", weak_Gc), 0.02 * 0.5);
+}
+
+TEST(DirectSensitivity, OfGluedBlocksHasItsClosedForm) {
+  const TemporaryCase directory(finely_pulled_blocks());
+  found_in(directory, direct);
+  const CsvTable table = read_csv(directory.results() / "sensitivity.csv", {.has_gaps = true});
+  const std::vector<double>& u = table.column("displacement_m");
+  const Values values{{modulus, 1e9}, {law_strength, strength}, {law_toughness, toughness}};
+  int n = 0;
+  for (const auto& [key, value] : values) {
+    const std::vector<double>& e = table.column("elasticity_" + key);
+    for (std::size_t i = 1; i < u.size(); ++i) {
+      if (std::isnan(e[i]) || std::abs(u[i] - 4e-6) < 1e-6) continue;
+      const double due = elasticity_of([&](const Values& p) { return force_of_blocks(p, u[i]); }, values, key);
+      EXPECT_NEAR(e[i], due, 2e-3 * std::max(1.0, std::abs(due))) << key << " at " << u[i];
+      ++n;
+    }
+  }
+  EXPECT_GT(n, 100);
+}
+
+TEST(DirectSensitivity, IsRefusedWhereModelsHaveNone) {
+  const TemporaryCase viscous(
+      replaced(replaced(bar_case(), "split = \"none\"", "split = \"none\"\nviscosity = \"1 kPa s\""), "[loading]\n",
+               "[loading]\nduration = \"1 s\"\n"));
+  const Outcome outcome = run({"sensitivity", viscous.path().string(), "--method", "direct"});
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_THAT(outcome.err, HasSubstr("there are no direct derivatives of runs with a viscosity"));
+  EXPECT_EQ(run({"sensitivity", viscous.path().string(), "--method", "exact"}).status, 2);
+}
+
+}  // namespace
+}  // namespace pfdm::this_file
