@@ -13,7 +13,7 @@ namespace pfdm {
 namespace {
 
 constexpr double load_step = 1e-5;                         // relative, of the derivative by the load
-constexpr double least_unsolved = 3e-5, reduction = 1e-5;  // of the right side, in all and by a solution
+constexpr double least_unsolved = 1e-6, reduction = 1e-5;  // of the right side, in all and by a solution
 constexpr double null_reduction = 1e-2;                    // by an inverse iteration
 constexpr int most_refinements = 6;
 constexpr Index most_iterations = 300;
@@ -42,9 +42,9 @@ struct RunDerivatives::Parameter {
   double step;
   bool is_load;
   Derivative derivative{};
+  Jump jump{};
   std::vector<InterfaceHistory> interfaces, earlier;  // of the shifted model, before the step and the one before it
-  std::vector<Vector> right_side{}, answer{};
-  double regular_load = 0.0;  // change of ln t by ln p with which the answer has no part along that by the load
+  std::vector<Vector> right_side{}, answer{};         // of the last step
 
   Parameter(const Mesh& mesh, const FractureModel& model, const StaggeredSettings& settings, double by, bool of_load)
       : shifted(mesh, model, settings),
@@ -53,6 +53,37 @@ struct RunDerivatives::Parameter {
         interfaces(shifted.staggered.faces().virgin_histories()),
         earlier(interfaces) {
     derivative.damage = CellField<double>(mesh.n_cells(), 0.0);
+  }
+};
+
+/// An accepted step.
+struct RunDerivatives::Step {
+  FractureState state;
+  std::vector<InterfaceHistory> before;  // of the cohesive faces
+  ConjugateGradients::Held held;         // cells whose damage is on a bound, or cannot grow
+  std::vector<char> inherits;            // of these the ones whose damage is that of the step before
+};
+
+/// The equations at a state.
+struct RunDerivatives::Linearised {
+  Unbalanced base;
+  std::unique_ptr<CoupledSystem> system;
+
+  /// Difference of the unbalanced forces and damage of another model, over its step.
+  std::vector<Vector> difference(const Unbalanced& other, double step) const {
+    std::vector<Vector> b(system->size(), Vector::Zero());
+    parallel_for(count_of(base.forces), [&](Index i) { b[i] = (other.forces[i] - base.forces[i]) / step; });
+    parallel_for(system->n_cells(), [&](Index c) {
+      if (!system->is_held(c)) system->of(b, c) = (other.damage[c] - base.damage[c]) / (step * system->root(c));
+    });
+    return b;
+  }
+  /// The state moved by an answer.
+  void move(const FractureState& from, const std::vector<Vector>& x, double step, FractureState& to) const {
+    parallel_for(count_of(from.displacement),
+                 [&](Index i) { to.displacement[i] = from.displacement[i] + step * x[i]; });
+    parallel_for(system->n_cells(),
+                 [&](Index c) { to.damage[c] = from.damage[c] + step * system->of(x, c) / system->root(c); });
   }
 };
 
@@ -108,100 +139,135 @@ Index RunDerivatives::iterations() const {
   return n;
 }
 
+const RunDerivatives::Jump& RunDerivatives::jump(std::size_t k) const { return parameters_[k]->jump; }
+
 void RunDerivatives::follow(const FractureState& start, const FractureState& state, bool jumped) {
-  Staggered& staggered = base_->staggered;
-  if (jumped && !load_->answer.empty())
+  if (jumped && last_) {
+    find_jump(*linearised(*last_).system);
     for (const auto& p : parameters_) go_to_jump(start, *p);
-  const Unbalanced base = unbalanced_of(staggered, state, start.interfaces);
-  std::vector<Vector> unchanged = state.displacement;  // the solution makes the preconditioner
-  staggered.momentum().solve(state.load, {.reduction = 1.0, .ceiling = 1.0, .floor = 1.0, .most_iterations = 0},
-                             unchanged);
-  const CellField<double> lower = base_->model.lower_bound(start.damage);
-  const DamageEquation& damage = staggered.damage_equation();
-  ConjugateGradients::Held held(as_size(mesh_.n_cells()), 1);
-  bool any_is_free = false;
-  for (Index c = 0; c < mesh_.n_cells(); ++c) {
-    if (damage.is_damageable(c) && state.damage[c] > lower[c] && state.damage[c] < 1.0) held[as_size(c)] = 0;
-    any_is_free = any_is_free || held[as_size(c)] == 0;
   }
-  CoupledSystem system(staggered.momentum(), damage,
-                       any_is_free ? staggered.stiffness().degradable_part(state) : CellField<IsotropicElasticity>(),
-                       state, std::move(held));
-  differentiate(start, state, base, system, *load_);
-  for (const auto& p : parameters_) differentiate(start, state, base, system, *p);
-  find_jumps(system);
+  Step step = step_of(start, state);
+  Linearised at = linearised(step);
+  for (const auto& p : parameters_) {
+    if (jumped) p->answer.clear();
+    differentiate(step, at, *p);
+  }
+  if (jumped) load_->answer.clear();
+  differentiate(step, at, *load_);
+  last_ = std::make_unique<Step>(std::move(step));
 }
 
-void RunDerivatives::differentiate(const FractureState& start, const FractureState& state, const Unbalanced& base,
-                                   CoupledSystem& system, Parameter& p) {
+RunDerivatives::Step RunDerivatives::step_of(const FractureState& start, const FractureState& state) const {
   const CellField<double> lower = base_->model.lower_bound(start.damage);
-  std::vector<Vector> x(system.size(), Vector::Zero()), b(system.size(), Vector::Zero());
-  for (Index c = 0; c < mesh_.n_cells(); ++c)
-    if (system.is_held(c) && state.damage[c] == lower[c] && lower[c] == start.damage[c])
-      system.of(x, c) = p.is_load ? 0.0 : p.derivative.damage[c] * system.root(c);
-  Derivative found;
-  FractureState moved = state;
+  const DamageEquation& damage = base_->staggered.damage_equation();
+  const std::size_t n = as_size(mesh_.n_cells());
+  Step step{state, start.interfaces, ConjugateGradients::Held(n, 1), std::vector<char>(n, 0)};
+  for (Index c = 0; c < mesh_.n_cells(); ++c) {
+    if (damage.is_damageable(c) && state.damage[c] > lower[c] && state.damage[c] < 1.0) step.held[as_size(c)] = 0;
+    if (state.damage[c] == lower[c] && lower[c] == start.damage[c]) step.inherits[as_size(c)] = 1;
+  }
+  return step;
+}
+
+RunDerivatives::Linearised RunDerivatives::linearised(const Step& step) {
+  Staggered& staggered = base_->staggered;
+  Linearised at{unbalanced_of(staggered, step.state, step.before), nullptr};
+  std::vector<Vector> unchanged = step.state.displacement;  // the solution makes the preconditioner
+  staggered.momentum().solve(step.state.load, {.reduction = 1.0, .ceiling = 1.0, .floor = 1.0, .most_iterations = 0},
+                             unchanged);
+  const bool all_held = std::ranges::count(step.held, 0) == 0;
+  at.system = std::make_unique<CoupledSystem>(
+      staggered.momentum(), staggered.damage_equation(),
+      all_held ? CellField<IsotropicElasticity>() : staggered.stiffness().degradable_part(step.state), step.state,
+      step.held);
+  return at;
+}
+
+void RunDerivatives::differentiate(const Step& step, Linearised& at, Parameter& p) {
+  CoupledSystem& system = *at.system;
+  std::vector<Vector> x(system.size(), Vector::Zero());
+  if (!p.is_load)
+    for (Index c = 0; c < mesh_.n_cells(); ++c)
+      if (system.is_held(c) && step.inherits[as_size(c)] != 0)
+        system.of(x, c) = p.derivative.damage[c] * system.root(c);
+  FractureState moved = step.state;
   if (p.is_load) moved.load *= 1.0 + p.step;
   Unbalanced rest;
-  double first = 0.0, last = 0.0;
-  const std::vector<double> scale = system.scale();
-  for (int k = 0;; ++k) {
-    parallel_for(count_of(state.displacement),
-                 [&](Index i) { moved.displacement[i] = state.displacement[i] + p.step * x[i]; });
+  const auto unsolved = [&] {
+    at.move(step.state, x, p.step, moved);
     if (p.is_load) p.shifted.staggered.balance().prescribe(moved.load, moved.displacement);
-    parallel_for(mesh_.n_cells(),
-                 [&](Index c) { moved.damage[c] = state.damage[c] + p.step * system.of(x, c) / system.root(c); });
-    rest = unbalanced_of(p.shifted.staggered, moved, p.is_load ? start.interfaces : p.interfaces);
-    parallel_for(count_of(base.forces), [&](Index i) { b[i] = (rest.forces[i] - base.forces[i]) / p.step; });
-    parallel_for(mesh_.n_cells(), [&](Index c) {
-      system.of(b, c) = system.is_held(c) ? 0.0 : (rest.damage[c] - base.damage[c]) / (p.step * system.root(c));
-    });
-    const double norm = scaled_norm(b, scale);
-    if (k == 0) first = norm, p.right_side = b;
-    found.unsolved = first > 0.0 ? norm / first : 0.0;
-    if (found.unsolved <= least_unsolved || k == most_refinements || (k > 1 && norm > 0.5 * last)) break;
-    last = norm;
-    std::vector<Vector> change(system.size(), Vector::Zero());
-    found.iterations += system.solve(b, reduction, most_iterations, change).iterations;
-    parallel_for(count_of(x), [&](Index i) { x[i] += change[i]; });
+    rest = unbalanced_of(p.shifted.staggered, moved, p.is_load ? step.before : p.interfaces);
+    return at.difference(rest, p.step);
+  };
+  std::vector<Vector> b = unsolved();
+  const std::vector<double> scale = system.scale();
+  const double whole = scaled_norm(b, scale);
+  p.right_side = b;
+  p.derivative.iterations = 0;
+  if (!p.answer.empty() && last_ && last_->state.load > 0.0) {  // the answer before, in proportion
+    const double share = step.state.load / last_->state.load;
+    for (std::size_t i = 0; i < system.n_displacements(); ++i) x[i] = share * p.answer[i];
+    for (Index c = 0; c < mesh_.n_cells(); ++c)
+      if (!system.is_held(c)) system.of(x, c) = share * p.derivative.damage[c] * system.root(c);
+    b = unsolved();
   }
-  found.displacement.assign(x.begin(), x.begin() + static_cast<std::ptrdiff_t>(system.n_displacements()));
-  found.damage = CellField<double>(mesh_.n_cells());
-  for (Index c = 0; c < mesh_.n_cells(); ++c) found.damage[c] = system.of(x, c) / system.root(c);
-  found.boundary_force = rest.boundary_force;
-  for (std::size_t f = 0; f < found.boundary_force.size(); ++f)
-    found.boundary_force[f] = (rest.boundary_force[f] - base.boundary_force[f]) / p.step;
-  const MomentumOperator& balance = base_->staggered.balance();
-  found.patch_displacement = balance.patch_displacements(moved.displacement);
-  const std::vector<Vector> unmoved = balance.patch_displacements(state.displacement);
-  for (std::size_t i = 0; i < unmoved.size(); ++i)
-    found.patch_displacement[i] = (found.patch_displacement[i] - unmoved[i]) / p.step;
-  p.earlier = std::exchange(p.interfaces, std::move(rest.interfaces));
+  double norm = scaled_norm(b, scale), last = norm;
+  for (int k = 0; k < most_refinements && norm > least_unsolved * whole && (k < 2 || norm < 0.5 * last); ++k) {
+    std::vector<Vector> change(system.size(), Vector::Zero());
+    const double due = std::clamp(0.5 * least_unsolved * whole / norm, reduction, 0.5);
+    p.derivative.iterations += system.solve(b, due, most_iterations, change).iterations;
+    parallel_for(count_of(x), [&](Index i) { x[i] += change[i]; });
+    b = unsolved();
+    last = std::exchange(norm, scaled_norm(b, scale));
+  }
+  p.derivative.unsolved = whole > 0.0 ? norm / whole : 0.0;
   p.answer = std::move(x);
-  p.derivative = std::move(found);
+  keep(step, at, moved, rest, p);
 }
 
+void RunDerivatives::keep(const Step& step, const Linearised& at, const FractureState& moved, const Unbalanced& rest,
+                          Parameter& p) const {
+  Derivative& found = p.derivative;
+  const auto n = static_cast<std::ptrdiff_t>(at.system->n_displacements());
+  found.displacement.assign(p.answer.begin(), p.answer.begin() + n);
+  for (Index c = 0; c < mesh_.n_cells(); ++c) found.damage[c] = at.system->of(p.answer, c) / at.system->root(c);
+  found.boundary_force = rest.boundary_force;
+  for (std::size_t f = 0; f < found.boundary_force.size(); ++f)
+    found.boundary_force[f] = (rest.boundary_force[f] - at.base.boundary_force[f]) / p.step;
+  const MomentumOperator& balance = base_->staggered.balance();
+  found.patch_displacement = balance.patch_displacements(moved.displacement);
+  const std::vector<Vector> unmoved = balance.patch_displacements(step.state.displacement);
+  for (std::size_t i = 0; i < unmoved.size(); ++i)
+    found.patch_displacement[i] = (found.patch_displacement[i] - unmoved[i]) / p.step;
+  p.earlier = std::exchange(p.interfaces, rest.interfaces);
+}
+
+// What is frozen by the jump has been reached along the path of the load, without the part that grows beyond all
+// bounds.
 void RunDerivatives::go_to_jump(const FractureState& last, Parameter& p) const {
-  const double load = p.regular_load;
-  const Derivative& by_load = load_->derivative;
   std::vector<Vector> u = last.displacement;
+  const double square = dot(load_->answer, load_->answer);
+  const double load = square > 0.0 ? -dot(load_->answer, p.answer) / square : 0.0;
   for (std::size_t i = 0; i < u.size(); ++i)
-    u[i] += p.step * (p.derivative.displacement[i] + load * by_load.displacement[i]);
-  for (Index c = 0; c < mesh_.n_cells(); ++c) p.derivative.damage[c] += load * by_load.damage[c];
+    u[i] += p.step * (p.derivative.displacement[i] + load * load_->derivative.displacement[i]);
+  for (Index c = 0; c < mesh_.n_cells(); ++c) p.derivative.damage[c] += load * load_->derivative.damage[c];
   const Staggered& staggered = p.shifted.staggered;
   staggered.faces().advance(staggered.balance(), u, p.earlier, p.interfaces);
 }
 
-void RunDerivatives::find_jumps(CoupledSystem& system) {
+void RunDerivatives::find_jump(CoupledSystem& system) {
   const std::vector<double> scale = system.scale();
   std::vector<Vector> b = load_->answer, null(system.size(), Vector::Zero());
   for (std::size_t i = 0; i < b.size(); ++i) b[i] /= scale[i] * scale[i];  // in the norm of the diagonal
   system.solve(b, null_reduction, most_iterations, null);
-  const double by_load = dot(null, load_->right_side);
-  const double square = dot(b, load_->answer);
-  for (const auto& p : parameters_) p->regular_load = square > 0.0 ? -dot(b, p->answer) / square : 0.0;
-  for (const auto& p : parameters_)
-    p->derivative.load_of_jump = by_load != 0.0 ? -dot(null, p->right_side) / by_load : 0.0;
+  const auto load_by = [&](const std::vector<Vector>& vector, const Parameter& p) {
+    const double by_load = dot(vector, load_->right_side);
+    return by_load != 0.0 ? -dot(vector, p.right_side) / by_load : 0.0;
+  };
+  for (const auto& p : parameters_) {
+    p->jump.load = load_by(null, *p);
+    p->jump.changed = std::abs(p->jump.load - load_by(load_->answer, *p));
+  }
 }
 
 }  // namespace pfdm

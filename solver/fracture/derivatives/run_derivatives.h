@@ -31,21 +31,21 @@ class RunDerivatives {
   /// Keeps a reference to the mesh.
   RunDerivatives(const Mesh& mesh, const FractureModel& model, const StaggeredSettings& settings);
   ~RunDerivatives();
-  /// One more parameter: the model with its value greater by the relative `step`, small. Throws InputError if that
-  /// model has other unknowns.
+  /// One more parameter, before the first step: the model with its value greater by the relative `step`, small. Throws
+  /// InputError if that model has other unknowns.
   void add(const FractureModel& shifted, double step);
 
-  /// After an accepted step from `start` to `state`. `jumped`: a jump lies between them. What the jump leaves as it
-  /// was, held damage and separations that were reached before, then has the derivative along the jump's load.
+  /// After an accepted step from `start` to `state`. `jumped`: a jump lies between them. What it leaves as it was, held
+  /// damage and separations that were reached before, then has the derivative along the jump's load; jump() is about
+  /// it.
   void follow(const FractureState& start, const FractureState& state, bool jumped = false);
 
   /// Of the last step, by ln p at fixed load.
   struct Derivative {
     std::vector<Vector> boundary_force;      ///< on each boundary face [N]
     std::vector<Vector> patch_displacement;  ///< area mean on each patch [m]
-    std::vector<Vector> displacement;        ///< [m]
+    std::vector<Vector> displacement;        ///< of all unknowns [m]
     CellField<double> damage;                ///< [-]
-    double load_of_jump = 0.0;               ///< d ln t/d ln p of the jump that may follow
     double unsolved = 0.0;                   ///< share of the right side that is left
     Index iterations = 0;                    ///< of FGMRES
   };
@@ -53,13 +53,25 @@ class RunDerivatives {
   const Derivative& by_load() const;  ///< by ln t
   Index iterations() const;           ///< of FGMRES, for all of them in the last step
 
+  /// Of the load t of the last jump that was followed.
+  struct Jump {
+    double load = 0.0;     ///< d ln t/d ln p
+    double changed = 0.0;  ///< what the last iteration for the null vector has changed of it
+  };
+  const Jump& jump(std::size_t parameter) const;
+
  private:
   struct Model;
   struct Parameter;
+  struct Step;
+  struct Linearised;
   std::unique_ptr<Parameter> parameter(const FractureModel& model, double step, bool is_load);
-  void differentiate(const FractureState& start, const FractureState& state, const Unbalanced& base,
-                     CoupledSystem& system, Parameter& parameter);
-  void find_jumps(CoupledSystem& system);
+  Step step_of(const FractureState& start, const FractureState& state) const;
+  Linearised linearised(const Step& step);
+  void differentiate(const Step& step, Linearised& at, Parameter& parameter);
+  void keep(const Step& step, const Linearised& at, const FractureState& moved, const Unbalanced& rest,
+            Parameter& parameter) const;
+  void find_jump(CoupledSystem& system);
   void go_to_jump(const FractureState& last, Parameter& parameter) const;
 
   const Mesh& mesh_;
@@ -67,6 +79,7 @@ class RunDerivatives {
   std::unique_ptr<Model> base_;
   std::unique_ptr<Parameter> load_;
   std::vector<std::unique_ptr<Parameter>> parameters_;
+  std::unique_ptr<Step> last_;  // that was followed
 };
 
 }  // namespace pfdm

@@ -32,9 +32,7 @@ struct CurveOfRun {
   int component;
 
   RowDerivative row(const RunDerivatives::Derivative& by) const {
-    RowDerivative found{.displacement = by.patch_displacement[as_size(patch)][component],
-                        .load_of_jump = by.load_of_jump,
-                        .unsolved = by.unsolved};
+    RowDerivative found{.displacement = by.patch_displacement[as_size(patch)][component], .unsolved = by.unsolved};
     const Patch& of = mesh.patches[as_size(patch)];
     for (Index f = 0; f < of.n_faces; ++f)
       found.force += by.boundary_force[as_size(of.first_face + f - mesh.n_interior_faces())][component];
@@ -106,9 +104,13 @@ DirectSensitivity differentiated_run(const FractureProgram& program, std::span<c
     const StepReport report = step_of(run, state);
     rows.push_back(curve_row(report, curve.patch, curve.component));
     const double stepped = cpu_seconds();
-    derivatives.follow(start, state, has_jumped(rows, curve.component));
+    const bool jumped = has_jumped(rows, curve.component);
+    derivatives.follow(start, state, jumped);
     found.by_load.push_back(curve.row(derivatives.by_load()));
-    for (std::size_t k = 0; k < added.size(); ++k) found.by[added[k]].push_back(curve.row(derivatives.by(k)));
+    for (std::size_t k = 0; k < added.size(); ++k) {
+      if (jumped) found.by[added[k]].back().jump = {derivatives.jump(k).load, derivatives.jump(k).changed};
+      found.by[added[k]].push_back(curve.row(derivatives.by(k)));
+    }
     found.seconds_of_run += stepped - began;
     found.seconds_more += cpu_seconds() - stepped;
     session.log.step(fmt::format("  step {}: load {:.6g} of {:.6g}, {} iterations of the derivatives", state.step,

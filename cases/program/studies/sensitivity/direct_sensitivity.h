@@ -12,8 +12,12 @@ namespace pfdm {
 struct RowDerivative {
   double force = 0.0;         ///< [N]
   double displacement = 0.0;  ///< [m]
-  double load_of_jump = 0.0;  ///< d ln t/d ln p of the jump that may follow
-  double unsolved = 0.0;      ///< share that the linear equations left
+  /// Of the jump that follows: d ln t/d ln p, and its error.
+  struct Jump {
+    double load = 0.0, error = 0.0;
+  };
+  Jump jump{};
+  double unsolved = 0.0;  ///< share that the linear equations left
 };
 
 struct DirectSensitivity {
