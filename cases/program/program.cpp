@@ -50,7 +50,8 @@ std::string command_on_same(const CommandLine& line, std::string_view command) {
 
 /// What is kept after an interruption, and how the job is continued.
 std::string way_on(const CommandLine& line, const RunnableCase& runnable) {
-  if (line.command == "sweep" || line.command == "sensitivity" || (line.command == "fit" && runnable.goes_on))
+  const bool keeps_runs = line.command == "sensitivity" && line.sensitivity.method != "direct";
+  if (line.command == "sweep" || keeps_runs || (line.command == "fit" && runnable.goes_on))
     return "; what has been computed is kept, and the same command continues it";
   if (!runnable.goes_on && (line.command == "run" || line.command == "fit"))
     return fmt::format("; earlier results are unchanged, and the same command starts the {} from the beginning",

@@ -194,6 +194,20 @@ class Studies(Folder):
         self.assertEqual(table["status"][1], "complete")
 
 
+class Sensitivities(Folder):
+    def test_are_tables_and_events(self):
+        case = bar()
+        direct = case.sensitivity(self.folder / "direct", parameters=[modulus, toughness], method="direct")
+        self.assertIn(f"elasticity_{modulus}", direct.sensitivity)
+        first = direct.sensitivity[f"elasticity_{modulus}"].dropna().iloc[0]
+        differences = case.sensitivity(self.folder / "differences", parameters=[modulus], step=0.02)
+        self.assertAlmostEqual(first, 1.0, places=3)
+        self.assertAlmostEqual(differences.sensitivity[f"elasticity_{modulus}"].dropna().iloc[0], 1.0, places=3)
+        self.assertEqual(differences.sensitivities["parameters"][0]["name"], modulus)
+        with self.assertRaises(pfdm.InputError):
+            case.sensitivity(self.folder / "none", parameters=["materials.none"])
+
+
 class Fits(Folder):
     def test_have_estimates_with_intervals_and_a_case(self):
         case = pfdm.Case(shipped / "endochronic_calibration")

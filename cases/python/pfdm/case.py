@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import tomllib
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -159,6 +159,29 @@ class Case:
         """
         call(self.words("fit", output, threads))
         return self.results(output).fit
+
+    def sensitivity(self, output: str | Path | None = None, *, parameters: Sequence[str] = (), step: float | None = None,
+                    method: str | None = None, threads: int | None = None) -> Results:
+        """Which parameter of a fracture case moves which part of its curve: elasticities d ln F/d ln p.
+
+        Args:
+            output: where the results go (None: own_results).
+            parameters: keys of the case; keys joined by "+" keep their ratio. None named: those of [fit], or all
+                positive constants of materials, regions, interfaces and the phase field.
+            step: of the differences, relative (None: 0.01).
+            method: "differences" of whole runs, or "direct" derivatives of each step of one run.
+            threads: number of threads.
+
+        Returns the results: Results.sensitivity over the displacement, Results.sensitivities with the events. Raises
+        InputError and ComputationError.
+        """
+        words = self.words("sensitivity", output, threads)
+        if parameters:
+            words += ["--parameters", ",".join(parameters)]
+        words += ["--step", repr(step)] if step is not None else []
+        words += ["--method", method] if method is not None else []
+        call(words)
+        return self.results(output)
 
     def report(self, output: str | Path | None = None) -> Path:
         """Draws the page of the results and returns the path of report/index.html."""

@@ -203,6 +203,17 @@ class Results:
         """sweep.csv: a row for each run of a sweep."""
         return self.table("sweep.csv")
 
+    @cached_property
+    def sensitivity(self) -> pandas.DataFrame:
+        """sensitivity.csv: displacement, force, and by each parameter elasticity, error and derivative; nan where there
+        is none."""
+        return self.table("sensitivity.csv")
+
+    @cached_property
+    def sensitivities(self) -> dict[str, Any]:
+        """sensitivity.json: the parameters, and the elasticities of each event of the curve."""
+        return _json(self.folder / "sensitivity.json", "pfdm sensitivity")
+
     @property
     def fit(self) -> Fit:
         return Fit(self.folder)

@@ -14,7 +14,8 @@ namespace {
 
 constexpr double load_step = 1e-5;                         // relative, of the derivative by the load
 constexpr double least_unsolved = 1e-6, reduction = 1e-5;  // of the right side, in all and by a solution
-constexpr double null_reduction = 1e-2;                    // by an inverse iteration
+constexpr double null_reduction = 1e-3;                    // by an inverse iteration
+constexpr int null_iterations = 3;
 constexpr int most_refinements = 6;
 constexpr Index most_iterations = 300;
 
@@ -255,18 +256,21 @@ void RunDerivatives::go_to_jump(const FractureState& last, Parameter& p) const {
   staggered.faces().advance(staggered.balance(), u, p.earlier, p.interfaces);
 }
 
+// Inverse iteration in the norm of the diagonal, from the answer by the load.
 void RunDerivatives::find_jump(CoupledSystem& system) {
   const std::vector<double> scale = system.scale();
-  std::vector<Vector> b = load_->answer, null(system.size(), Vector::Zero());
-  for (std::size_t i = 0; i < b.size(); ++i) b[i] /= scale[i] * scale[i];  // in the norm of the diagonal
-  system.solve(b, null_reduction, most_iterations, null);
-  const auto load_by = [&](const std::vector<Vector>& vector, const Parameter& p) {
-    const double by_load = dot(vector, load_->right_side);
-    return by_load != 0.0 ? -dot(vector, p.right_side) / by_load : 0.0;
-  };
-  for (const auto& p : parameters_) {
-    p->jump.load = load_by(null, *p);
-    p->jump.changed = std::abs(p->jump.load - load_by(load_->answer, *p));
+  std::vector<Vector> null = load_->answer;
+  for (int k = 0; k < null_iterations; ++k) {
+    std::vector<Vector> b = null;
+    for (std::size_t i = 0; i < b.size(); ++i) b[i] /= scale[i] * scale[i];
+    std::ranges::fill(null, Vector::Zero());
+    system.solve(b, null_reduction, most_iterations, null);
+    const double by_load = dot(null, load_->right_side), largest = std::sqrt(dot(null, null));
+    for (const auto& p : parameters_) {
+      const double load = by_load != 0.0 ? -dot(null, p->right_side) / by_load : 0.0;
+      p->jump = {.load = load, .changed = std::abs(load - p->jump.load)};
+    }
+    for (Vector& x : null) x /= largest > 0.0 ? largest : 1.0;
   }
 }
 

@@ -63,6 +63,10 @@ ParameterSensitivity differentiated(const CaseParameter& parameter, std::span<co
 
 void with_differences(const SensitivityJob& job, const std::vector<CaseParameter>& parameters, Session& session,
                       CaseSensitivity& found) {
+  found.doubt =
+      "differences with whole and half step disagree, or load steps hide the change. Take shorter load steps "
+      "(loading.maximum_increment; about jumps loading.energy_release with loading.finest_increment), a longer --step, "
+      "or a smaller solver.damage_tolerance";
   CaseRuns runs(session.results / "runs", session);
   const std::vector<DoneRun> done = runs.run(variants_of(job, parameters, session.sensitivity.step));
   if (!done.front().went_well())
@@ -78,6 +82,9 @@ void with_differences(const SensitivityJob& job, const std::vector<CaseParameter
 
 void directly(const SensitivityJob& job, const std::vector<CaseParameter>& parameters, Session& session,
               CaseSensitivity& found) {
+  found.doubt =
+      "the state is next to a jump, where the equations of the derivatives are singular. Of a jump's displacement "
+      "shorter load steps before it tell more (loading.maximum_increment, loading.finest_increment)";
   const DirectSensitivity direct = job.direct(parameters, session);
   found.curve = direct.curve;
   found.events = events_of(found.curve);
@@ -106,6 +113,7 @@ void run_sensitivity(const SensitivityJob& job, Session& session) {
                         .version = session.version,
                         .hash = job.hash,
                         .method = words_on_method(session.sensitivity),
+                        .doubt = {},
                         .curve = {},
                         .events = {},
                         .parameters = {},

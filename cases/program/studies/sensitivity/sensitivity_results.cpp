@@ -150,11 +150,7 @@ void conclude(CaseSensitivity& found) {
   for (const ParameterSensitivity& p : found.parameters)
     if (!p.failure.empty()) found.remarks.push_back(fmt::format("none by {}: {}", p.parameter.name, p.failure));
   if (const std::size_t n = count(found, [](const Elasticity& e) { return e.is_doubtful(); }))
-    found.remarks.push_back(fmt::format(
-        "{} elasticities are doubtful (?): differences with whole and half step disagree, or load steps hide the "
-        "change. Take shorter load steps (loading.maximum_increment; about jumps loading.energy_release with "
-        "loading.finest_increment), a longer --step, or a smaller solver.damage_tolerance",
-        n));
+    found.remarks.push_back(fmt::format("{} elasticities are doubtful (?): {}", n, found.doubt));
 }
 
 std::string short_name(const CaseParameter& parameter) {

@@ -30,7 +30,7 @@ struct ParameterSensitivity {
 
 struct CaseSensitivity {
   std::string name, title, version, hash;  ///< of the case
-  std::string method;                      ///< in words
+  std::string method, doubt;               ///< in words: how it was found, why some of it is doubtful
   SampledCurve curve;
   std::vector<BaseEvent> events;
   std::vector<ParameterSensitivity> parameters;  ///< that which moves the curve most first
