@@ -16,6 +16,7 @@ constexpr double load_step = 1e-5;                         // relative, of the d
 constexpr double least_unsolved = 1e-6, reduction = 1e-5;  // of the right side, in all and by a solution
 constexpr double null_reduction = 1e-3;                    // by an inverse iteration
 constexpr int null_iterations = 3;
+constexpr double least_share = 1e-3;  // of the right side by the load, against which those of no influence are small
 constexpr int most_refinements = 6;
 constexpr Index most_iterations = 300;
 
@@ -45,7 +46,7 @@ struct RunDerivatives::Parameter {
   Derivative derivative{};
   Jump jump{};
   std::vector<InterfaceHistory> interfaces, earlier;  // of the shifted model, before the step and the one before it
-  std::vector<Vector> right_side{}, answer{};         // of the last step
+  std::vector<Vector> right_side{}, earlier_right_side{}, answer{};  // of the last steps
 
   Parameter(const Mesh& mesh, const FractureModel& model, const StaggeredSettings& settings, double by, bool of_load)
       : shifted(mesh, model, settings),
@@ -144,18 +145,19 @@ const RunDerivatives::Jump& RunDerivatives::jump(std::size_t k) const { return p
 
 void RunDerivatives::follow(const FractureState& start, const FractureState& state, bool jumped) {
   if (jumped && last_) {
-    find_jump(*linearised(*last_).system);
+    if (earlier_) find_jump(*earlier_, &Parameter::earlier_right_side);
+    find_jump(*last_, &Parameter::right_side);
     for (const auto& p : parameters_) go_to_jump(start, *p);
   }
   Step step = step_of(start, state);
   Linearised at = linearised(step);
+  if (jumped) load_->answer.clear();
+  differentiate(step, at, *load_);
   for (const auto& p : parameters_) {
     if (jumped) p->answer.clear();
     differentiate(step, at, *p);
   }
-  if (jumped) load_->answer.clear();
-  differentiate(step, at, *load_);
-  last_ = std::make_unique<Step>(std::move(step));
+  earlier_ = std::exchange(last_, std::make_unique<Step>(std::move(step)));
 }
 
 RunDerivatives::Step RunDerivatives::step_of(const FractureState& start, const FractureState& state) const {
@@ -202,8 +204,8 @@ void RunDerivatives::differentiate(const Step& step, Linearised& at, Parameter& 
   };
   std::vector<Vector> b = unsolved();
   const std::vector<double> scale = system.scale();
-  const double whole = scaled_norm(b, scale);
-  p.right_side = b;
+  p.earlier_right_side = std::exchange(p.right_side, b);
+  const double whole = std::max(scaled_norm(b, scale), least_share * scaled_norm(load_->right_side, scale));
   p.derivative.iterations = 0;
   if (!p.answer.empty() && last_ && last_->state.load > 0.0) {  // the answer before, in proportion
     const double share = step.state.load / last_->state.load;
@@ -257,20 +259,21 @@ void RunDerivatives::go_to_jump(const FractureState& last, Parameter& p) const {
 }
 
 // Inverse iteration in the norm of the diagonal, from the answer by the load.
-void RunDerivatives::find_jump(CoupledSystem& system) {
-  const std::vector<double> scale = system.scale();
+void RunDerivatives::find_jump(const Step& last, std::vector<Vector> Parameter::*right_side) {
+  const Linearised at = linearised(last);
+  const std::vector<double> scale = at.system->scale();
   std::vector<Vector> null = load_->answer;
   for (int k = 0; k < null_iterations; ++k) {
     std::vector<Vector> b = null;
-    for (std::size_t i = 0; i < b.size(); ++i) b[i] /= scale[i] * scale[i];
+    const double size = std::sqrt(dot(null, null));
+    for (std::size_t i = 0; i < b.size(); ++i) b[i] /= scale[i] * scale[i] * size;
     std::ranges::fill(null, Vector::Zero());
-    system.solve(b, null_reduction, most_iterations, null);
-    const double by_load = dot(null, load_->right_side), largest = std::sqrt(dot(null, null));
-    for (const auto& p : parameters_) {
-      const double load = by_load != 0.0 ? -dot(null, p->right_side) / by_load : 0.0;
-      p->jump = {.load = load, .changed = std::abs(load - p->jump.load)};
-    }
-    for (Vector& x : null) x /= largest > 0.0 ? largest : 1.0;
+    at.system->solve(b, null_reduction, most_iterations, null);
+  }
+  const double by_load = dot(null, (*load_).*right_side);
+  for (const auto& p : parameters_) {
+    const double load = by_load != 0.0 ? -dot(null, (*p).*right_side) / by_load : 0.0;
+    p->jump = {.load = load, .changed = std::abs(load - p->jump.load)};
   }
 }
 

@@ -56,7 +56,7 @@ class RunDerivatives {
   /// Of the load t of the last jump that was followed.
   struct Jump {
     double load = 0.0;     ///< d ln t/d ln p
-    double changed = 0.0;  ///< what the last iteration for the null vector has changed of it
+    double changed = 0.0;  ///< difference from what the state before the last one says of it
   };
   const Jump& jump(std::size_t parameter) const;
 
@@ -71,7 +71,7 @@ class RunDerivatives {
   void differentiate(const Step& step, Linearised& at, Parameter& parameter);
   void keep(const Step& step, const Linearised& at, const FractureState& moved, const Unbalanced& rest,
             Parameter& parameter) const;
-  void find_jump(CoupledSystem& system);
+  void find_jump(const Step& last, std::vector<Vector> Parameter::*right_side);
   void go_to_jump(const FractureState& last, Parameter& parameter) const;
 
   const Mesh& mesh_;
@@ -79,7 +79,7 @@ class RunDerivatives {
   std::unique_ptr<Model> base_;
   std::unique_ptr<Parameter> load_;
   std::vector<std::unique_ptr<Parameter>> parameters_;
-  std::unique_ptr<Step> last_;  // that was followed
+  std::unique_ptr<Step> last_, earlier_;  // that were followed
 };
 
 }  // namespace pfdm
