@@ -42,9 +42,9 @@ inline constexpr CommandText case_commands[] = {
     {"sensitivity", "Say which parameter of a case moves which part of its force-displacement curve",
      "Writes to CASE/results: sensitivity.json, sensitivity.csv (elasticities d ln F/d ln p over the displacement, "
      "with\n"
-     "errors) and the page sensitivity/index.html. Each parameter takes four runs, which are kept in "
-     "CASE/results/runs;\n"
-     "the same command continues them."},
+     "errors) and the page sensitivity/index.html. By differences each parameter takes four runs, which are kept in\n"
+     "CASE/results/runs; the same command continues them. --method direct takes one run, and keeps nothing on the "
+     "way."},
     {"analyse", "Analyse the vibration records of a case without a fit: spectra, responses, harmonics",
      "Writes to CASE/results/analysis: analysis.json and, of each test NAME, NAME_spectra.csv (densities, H1, H2, Hv,\n"
      "coherence with bounds), NAME_spectrogram.csv and, of sines, NAME_harmonics.csv, NAME_envelopes.csv (recorded,\n"

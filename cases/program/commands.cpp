@@ -156,7 +156,7 @@ void Parser::add_sensitivity_options() {
       ->type_name("METHOD");
   of.add_option("--step", line.sensitivity.step,
                 "of the differences, relative to the parameter (default: 0.01); half of it tells their error")
-      ->check(CLI::Range(1e-4, 0.3))
+      ->check(CLI::Range(1e-4, 0.3).description(""))
       ->type_name("SHARE");
 }
 
