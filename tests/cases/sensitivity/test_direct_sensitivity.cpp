@@ -1,7 +1,7 @@
 // pfdm sensitivity --method direct, against closed forms and against differences.
 
 #include "postproc/files/csv_table.h"
-#include "tests/cases/sensitivities.h"
+#include "tests/cases/sensitivity/closed_forms.h"
 
 #include <gmock/gmock.h>
 
@@ -37,15 +37,18 @@ TEST(DirectSensitivity, OfABarThatSoftensEvenlyHasItsClosedForm) {
   EXPECT_FALSE(std::filesystem::exists(directory.results() / "runs"));
 }
 
-/// So long that its damage gathers in the weak middle, and it jumps.
+/// So long that its damage gathers at its weak end, and it jumps. One cell wide and weak at an end, lest it has ways to
+/// break that differ by rounding.
 std::string long_bar() {
   std::string text = replaced(bar_case(), "cells = 21", "cells = 41");
+  text = replaced(text, "cells = 2 }", "cells = 1 }");
+  text = replaced(text, "lower = [\"9.6 mm\"", "lower = [\"-1 mm\"");
+  text = replaced(text, "upper = [\"10.4 mm\"", "upper = [\"1 mm\"");
   text = replaced(text, "\"AT1\"", "\"AT2\"");
   text = replaced(text, "\"4 mm\"", "\"2 mm\"");
-  text = replaced(text, "0.015 mm", "0.018 mm");
   text = replaced(text, "\ninitial_increment = 0.1",
-                  "\nenergy_release = 0.02\nfinest_increment = 1e-5\ninitial_increment = 0.0025");
-  text = replaced(text, "\nmaximum_increment = 0.1", "\nmaximum_increment = 0.0025");
+                  "\nenergy_release = 0.02\nfinest_increment = 1e-5\ninitial_increment = 0.0015");
+  text = replaced(text, "\nmaximum_increment = 0.1", "\nmaximum_increment = 0.0015");
   return text +
          "[solver]\ndamage_tolerance = 1e-7\nenergy_tolerance = 1e-9\nequilibrium_tolerance = 1e-8\nmaximum_iterations "
          "= 20000\n";
@@ -67,19 +70,21 @@ TEST(DirectSensitivity, OfABarThatBreaksIsThatOfDifferences) {
     const std::vector<double>&e = by_one.column(std::string("elasticity_") + key),
           &due = by_other.column(std::string("elasticity_") + key),
           &error = by_other.column(std::string("error_") + key);
-    std::size_t n = 0;
+    std::size_t n = 0, n_beyond = 0;
     for (std::size_t i = 1; i < e.size(); ++i) {
-      if (!(error[i] < 3e-5)) continue;
-      EXPECT_NEAR(e[i], due[i], 1e-4 * std::max(1.0, std::abs(due[i]))) << key << " in row " << i;
-      ++n;
+      if (!(error[i] < 1e-3)) continue;
+      const double share = error[i] > 3e-5 ? 1e-2 : 1e-4;  // next to the jump the differences err by more than they say
+      EXPECT_NEAR(e[i], due[i], share * std::max(1.0, std::abs(due[i]))) << key << " in row " << i;
+      ++(error[i] > 3e-5 ? n_beyond : n);
     }
-    EXPECT_GT(n, peak) << key;  // rows beyond the peak are among them
+    EXPECT_GT(n, 0.95 * static_cast<double>(peak)) << key;
+    EXPECT_GT(n + n_beyond, peak + 5) << key;  // rows beyond the peak are among them
   }
   // u (E/Gc)^(1/2) is alone what equilibrium depends on.
-  EXPECT_NEAR(value_of(found, "jump 1", "displacement", concrete_E), -0.5, 0.02);
+  EXPECT_NEAR(value_of(found, "jump 1", "displacement", concrete_E), -0.5, 0.01);
   EXPECT_NEAR(value_of(found, "jump 1", "displacement", "materials.concrete.toughness") +
                   value_of(found, "jump 1", "displacement", weak_Gc),
-              0.5, 0.02);
+              0.5, 0.01);
   EXPECT_NEAR(value_of(found, "jump 1", "displacement", weak_Gc),
               value_of(differences, "jump 1", "displacement", weak_Gc), 0.02 * 0.5);
 }

@@ -1,7 +1,7 @@
 // pfdm sensitivity, against closed forms: a bar that softens evenly, blocks that an interface joins.
 
 #include "postproc/files/csv_table.h"
-#include "tests/cases/sensitivities.h"
+#include "tests/cases/sensitivity/closed_forms.h"
 
 #include <gmock/gmock.h>
 
