@@ -116,6 +116,7 @@ TEST(DirectSensitivity, IsRefusedWhereModelsHaveNone) {
   EXPECT_EQ(outcome.status, 2);
   EXPECT_THAT(outcome.err, HasSubstr("there are no direct derivatives of runs with a viscosity"));
   EXPECT_EQ(run({"sensitivity", viscous.path().string(), "--method", "exact"}).status, 2);
+  EXPECT_FALSE(std::filesystem::exists(viscous.results()));
 }
 
 }  // namespace

@@ -12,6 +12,8 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
+#include <optional>
 #include <utility>
 
 namespace pfdm {
@@ -62,11 +64,12 @@ ParameterSensitivity differentiated(const CaseParameter& parameter, std::span<co
 }
 
 void with_differences(const SensitivityJob& job, const std::vector<CaseParameter>& parameters, Session& session,
-                      CaseSensitivity& found) {
+                      const std::function<void()>& begin, CaseSensitivity& found) {
   found.doubt =
       "differences with whole and half step disagree, or load steps hide the change. Take shorter load steps "
       "(loading.maximum_increment; about jumps loading.energy_release with loading.finest_increment), a longer --step, "
       "or a smaller solver.damage_tolerance";
+  begin();
   CaseRuns runs(session.results / "runs", session);
   const std::vector<DoneRun> done = runs.run(variants_of(job, parameters, session.sensitivity.step));
   if (!done.front().went_well())
@@ -81,11 +84,12 @@ void with_differences(const SensitivityJob& job, const std::vector<CaseParameter
 }
 
 void directly(const SensitivityJob& job, const std::vector<CaseParameter>& parameters, Session& session,
-              CaseSensitivity& found) {
+              const std::function<void()>& begin, CaseSensitivity& found) {
   found.doubt =
       "the state is next to a jump, where the equations of the derivatives are singular. Of a jump's displacement "
       "shorter load steps before it tell more (loading.maximum_increment, loading.finest_increment)";
-  const DirectSensitivity direct = job.direct(parameters, session);
+  const DirectSensitivity direct = job.direct(parameters, session);  // which may refuse the case
+  begin();
   found.curve = direct.curve;
   found.events = events_of(found.curve);
   for (std::size_t j = 0; j < parameters.size(); ++j) {
@@ -119,12 +123,15 @@ void run_sensitivity(const SensitivityJob& job, Session& session) {
                         .parameters = {},
                         .remarks = {}};
   const std::vector<CaseParameter> parameters = parameters_of(job, session, found.remarks);
-  const FolderLock lock(session.results);
   session.log.say(
       head_line(session, fmt::format("sensitivity of {} to {} by {}", job.name,
                                      counted(static_cast<Index>(parameters.size()), "parameter"), found.method)));
-  session.log.open_file(session.results / "sensitivity.log", true);
-  (session.sensitivity.method == "direct" ? directly : with_differences)(job, parameters, session, found);
+  std::optional<FolderLock> lock;
+  const auto begin = [&] {
+    lock.emplace(session.results);
+    session.log.open_file(session.results / "sensitivity.log", true);
+  };
+  (session.sensitivity.method == "direct" ? directly : with_differences)(job, parameters, session, begin, found);
   conclude(found);
   write_sensitivity(session.results, found);
   for (const std::string& line : words_of(found)) session.log.say(line);
