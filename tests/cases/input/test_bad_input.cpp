@@ -194,7 +194,7 @@ TEST(BadInput, ResultsFolderWithoutAName) {
 TEST(BadInput, UnknownCommand) {
   EXPECT_EQ(run({"rn", "case"}).err,
             "pfdm: unknown command \"rn\"; did you mean \"run\"? (available: run, check, mesh, cohesive, compare, fit, "
-            "sweep, analyse, report, init, list, help, completion, test)\n");
+            "sweep, sensitivity, analyse, report, init, list, help, completion, test)\n");
 }
 
 TEST(BadInput, JobThatTheKindOfCaseDoesNotHave) {
