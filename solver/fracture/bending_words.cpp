@@ -73,8 +73,7 @@ constexpr double bearable_of_others = 0.04;
 
 // Prisms whose gradients are those of one ring, tetrahedra and polyhedra: the error that a fifth of the surface
 // exceeds.
-std::optional<Warned> warn_of_others(const Mesh& mesh, const Unknowns& unknowns) {
-  std::vector<SlenderLayers> all = slender_layers(mesh, unknowns);
+std::optional<Warned> warn_of_others(const Mesh& mesh, const Unknowns& unknowns, std::vector<SlenderLayers> all) {
   if (all.empty()) return std::nullopt;
   const auto error_of = [&](const SlenderLayers& at) {
     return at.error(unknowns.sound[unknowns.zone[at.cell]].poisson_ratio());
@@ -92,9 +91,8 @@ std::optional<Warned> warn_of_others(const Mesh& mesh, const Unknowns& unknowns)
 }
 
 // Prisms that fit cubics, where a fifth of the surface exceeds it.
-std::optional<std::string> warn_of_long_prisms(const Mesh& mesh, const Unknowns& unknowns) {
+std::optional<std::string> warn_of_long_prisms(const Mesh& mesh, std::vector<SlenderLayers> all) {
   constexpr double longest = 1.2;
-  std::vector<SlenderLayers> all = slender_layers(mesh, unknowns);
   if (all.empty()) return std::nullopt;
   const auto at = all.begin() + count_of(all) * 4 / 5;
   std::ranges::nth_element(all, at, {}, [](const SlenderLayers& in) { return in.layers.length / in.layers.thickness; });
@@ -104,6 +102,13 @@ std::optional<std::string> warn_of_long_prisms(const Mesh& mesh, const Unknowns&
              "not known (cells longer than the body is thick: 1.5 times 23 % too low to 3 % too high, twice 39 % "
              "too low to 48 % too high, by nu and the diagonals). For 5 %: cells up to {} long ([mesh])",
              quantity_text(at->layers.thickness, "m", 2));
+}
+
+std::string warn_of_polygons(const Mesh& mesh, const SlenderLayers& at) {
+  return words_on_layers(mesh, at.cell, at.layers, "polygons") +
+         "not known (two layers of octagons as long as thick: 52 % too high). Quadrilaterals and triangles bend as "
+         "they "
+         "should ([mesh])";
 }
 
 std::optional<Warned> warn_of_hexahedra(const Mesh& mesh, const Unknowns& unknowns, const std::string& why) {
@@ -121,10 +126,17 @@ std::optional<std::string> bending_warning(const Mesh& mesh, const FractureModel
   const bool is_plane = std::ranges::any_of(model.boundary, [](const auto& on) { return is_front_or_back(on); });
   const std::string why = reason(model);
   const Unknowns unknowns = place_unknowns(mesh, elastic_body(model));
-  if (why.empty() && is_plane && !model.is_finite_strain() && !model.has_eigenstrain())
-    return warn_of_long_prisms(mesh, unknowns);
+  std::vector<SlenderLayers> slender = slender_layers(mesh, unknowns);
+  if (why.empty() && is_plane && !model.is_finite_strain() && !model.has_eigenstrain()) {
+    std::vector<SlenderLayers> of_prisms;
+    for (const SlenderLayers& at : slender)
+      if (at.of == SlenderCells::prisms_within) of_prisms.push_back(at);
+    std::erase_if(slender, [](const SlenderLayers& at) { return at.of != SlenderCells::polyhedra; });
+    if (!slender.empty()) return warn_of_polygons(mesh, slender.front());
+    return warn_of_long_prisms(mesh, std::move(of_prisms));
+  }
   const std::optional<Warned> of_hexahedra = warn_of_hexahedra(mesh, unknowns, why),
-                              of_others = warn_of_others(mesh, unknowns);
+                              of_others = warn_of_others(mesh, unknowns, std::move(slender));
   if (!of_hexahedra && !of_others) return std::nullopt;
   if (!of_hexahedra || (of_others && std::abs(of_others->error) > std::abs(of_hexahedra->error)))
     return of_others->words;

@@ -95,7 +95,7 @@ double MomentumOperator::energy_remembered() const {
   });
 }
 
-bool MomentumOperator::is_slender() const { return !slender_layers(skeleton_->mesh, skeleton_->unknowns).empty(); }
+bool MomentumOperator::is_slender() const { return is_slender_body(skeleton_->mesh, skeleton_->unknowns); }
 
 void MomentumOperator::relax_flat_cells() { cells_->relax_flat_cells(); }
 

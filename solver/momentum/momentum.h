@@ -84,7 +84,8 @@ class MomentumOperator {
   /// Whether some cells have faces or gradients of third order: cubic_faces.h, at finite strain none;
   /// layer_gradients.h.
   bool is_of_third_order() const { return tractions_->has_third_order(); }
-  /// Whether there are layers of prisms, tetrahedra or polyhedra across a slender part of the body (slender_layers.h).
+  /// Whether a tenth of the surface or more has layers of prisms, tetrahedra or polyhedra across a slender part of the
+  /// body (slender_layers.h).
   bool is_slender() const;
 
   /// The laws of the split faces, in their order.

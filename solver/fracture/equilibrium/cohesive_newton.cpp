@@ -111,7 +111,8 @@ Equilibrium solve_with_faces(const CohesiveFaces& faces, const std::vector<Inter
                        {.reduction = newton ? linear_reduction : convex_reduction,
                         .ceiling = 1.0,
                         .floor = 0.5 * target,
-                        .most_iterations = newton ? most_newton_iterations : tolerance.most_iterations},
+                        .most_iterations = newton ? most_newton_iterations : tolerance.most_iterations,
+                        .whole_cycle = !newton},
                        u);
     if (cells) shorten(from, cells, momentum, u);
     whole.iterations += step.iterations;

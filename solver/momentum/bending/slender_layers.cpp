@@ -146,6 +146,11 @@ class SlenderSearch {
   bool is_mirrored_ = false;
 };
 
+bool may_be_slender(const Mesh& mesh, const Unknowns& unknowns) {
+  return !unknowns.motion.any() && unknowns.periodic.empty() && !unknowns.is_axisymmetric() &&
+         std::ranges::any_of(mesh.shape, [](CellShape shape) { return shape != CellShape::hexahedron; });
+}
+
 }  // namespace
 
 double mean_chord(const Mesh& mesh, Index cell, const Vector& e) {
@@ -172,13 +177,25 @@ double SlenderLayers::error(double nu) const {
 
 std::vector<SlenderLayers> slender_layers(const Mesh& mesh, const Unknowns& unknowns) {
   std::vector<SlenderLayers> all;
-  if (unknowns.motion.any() || !unknowns.periodic.empty() || unknowns.is_axisymmetric()) return all;
-  if (std::ranges::all_of(mesh.shape, [](CellShape shape) { return shape == CellShape::hexahedron; })) return all;
+  if (!may_be_slender(mesh, unknowns)) return all;
   const SlenderSearch search(mesh, unknowns);
   for (Index f = mesh.n_interior_faces(); f < mesh.n_faces(); ++f)
     if (search.is_free(f))
       if (auto found = search.at(f)) all.push_back(std::move(*found));
   return all;
+}
+
+bool is_slender_body(const Mesh& mesh, const Unknowns& unknowns) {
+  constexpr Index part = 10;
+  if (!may_be_slender(mesh, unknowns)) return false;
+  const SlenderSearch search(mesh, unknowns);
+  Index n_free = 0, n_slender = 0;
+  for (Index f = mesh.n_interior_faces(); f < mesh.n_faces(); ++f) {
+    if (!search.is_free(f)) continue;
+    ++n_free;
+    if (search.at(f)) ++n_slender;
+  }
+  return n_slender > 0 && part * n_slender >= n_free;
 }
 
 // Cells between the lines, which these miss, follow two neighbours.

@@ -40,6 +40,9 @@ struct SlenderLayers {
 /// cells. None in boxes that follow a mean strain or about an axis.
 std::vector<SlenderLayers> slender_layers(const Mesh& mesh, const Unknowns& unknowns);
 
+/// Whether a tenth of the free faces or more have such layers.
+bool is_slender_body(const Mesh& mesh, const Unknowns& unknowns);
+
 /// Per cell of a plane mesh the direction in which its layers are long, where prisms and hexahedra among them would
 /// bend with an error of more than half a per cent; else zero. In space zero.
 CellField<Vector> bending_prisms(const Mesh& mesh, const Unknowns& unknowns);

@@ -6,6 +6,7 @@
 // F of the cells is wrong by O(h) on a curved surface, and so was its resultant.) The derivative is not symmetric on
 // the rim of a patch.
 
+#include "solver/momentum/body/face_mean.h"
 #include "solver/momentum/body/unknowns.h"
 
 #include <vector>
@@ -59,7 +60,8 @@ class PressedFaces {
     return unknowns_->free_directions[at.node - unknowns_->n_cells] * force;
   }
   double pressure_on(const Face& at, double t) const {
-    return unknowns_->conditions[at.condition].condition.pressure(mesh_->face_centre[at.face], t);
+    const BoundaryCondition& on = unknowns_->conditions[at.condition].condition;
+    return mean_over_face(*mesh_, at.face, [&](const Vector& x) { return on.pressure(x, t); });
   }
 
   const Mesh* mesh_;

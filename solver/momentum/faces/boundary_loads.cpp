@@ -1,35 +1,9 @@
 #include "solver/momentum/faces/boundary_loads.h"
 
+#include "solver/momentum/body/face_mean.h"
 #include "solver/parallel.h"
 
-#include <functional>
-#include <utility>
-
 namespace pfdm {
-namespace {
-
-// Mean of what a condition prescribes over a face, by a rule for quadratics in each triangle about its centre: the
-// value there may be far from it, as that of the shear stress of a beam of few layers (12 % with two). Points are
-// within the triangles, as the value may jump at edges.
-Vector mean_over(const Mesh& mesh, Index face, const std::function<Vector(const Vector& x, double t)>& value,
-                 double t) {
-  const Vector& centre = mesh.face_centre[face];
-  const Vector middle = value(centre, t), n = mesh.face_area[face].normalized();
-  const auto points = mesh.points_of_face(face);
-  Vector differences = Vector::Zero();
-  double area = 0.0;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const Vector a = mesh.points[points[i]] - centre, b = mesh.points[points[(i + 1) % points.size()]] - centre;
-    const double third = a.cross(b).dot(n) / 6.0;
-    for (const auto& [of_a, of_b] : {std::pair{1.0, 1.0}, {4.0, 1.0}, {1.0, 4.0}})
-      differences += third * (value(centre + (of_a * a + of_b * b) / 6.0, t) - middle);
-    area += 3.0 * third;
-  }
-  return middle + differences / area;
-}
-
-}  // namespace
-
 BoundaryLoads::BoundaryLoads(const FaceSkeleton& skeleton)
     : skeleton_(skeleton), pressed_faces_(skeleton.mesh, skeleton.unknowns) {
   const Mesh& mesh = skeleton.mesh;
@@ -70,7 +44,8 @@ void BoundaryLoads::add_tractions(double t, std::vector<Vector>& load) const {
       const Index node = unknowns.node_of_face[f];
       const Tensor& is_free = unknowns.free_directions[skeleton_.number_of(node)];
       if (is_free.isZero()) continue;
-      load[node] = is_free * mean_over(mesh, f, condition.value, t) * mesh.face_area[f].norm();
+      const Vector traction = mean_over_face(mesh, f, [&](const Vector& x) { return condition.value(x, t); });
+      load[node] = is_free * traction * mesh.face_area[f].norm();
     }
   }
 }

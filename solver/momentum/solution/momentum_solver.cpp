@@ -203,7 +203,7 @@ Equilibrium MomentumSolver::solve(double t, const Tolerance& tolerance, std::vec
                     std::min(tolerance.ceiling * reference, tolerance.reduction * initial));
   };
   const Index most =
-      is_slender_ ? std::max(tolerance.most_iterations, problem.restart_length) : tolerance.most_iterations;
+      std::max(tolerance.most_iterations, is_slender_ && tolerance.whole_cycle ? problem.restart_length : 0);
   const KrylovResult result = solve_fgmres(problem, load, u, target, most);
   stale_.was_used(result.converged);
   return {.converged = result.converged,

@@ -62,7 +62,8 @@ class MomentumSolver {
     double reduction = 0.0;
     double ceiling = 1e-8;
     double floor = 1e-8;
-    Index most_iterations = 2000;  ///< of FGMRES; in slender bodies at least a cycle
+    Index most_iterations = 2000;  ///< of FGMRES
+    bool whole_cycle = true;       ///< in slender bodies at least a cycle of iterations, which may be more
     double good_enough = 0.0;      ///< a residual from which on slow convergence ends the solution
   };
   Equilibrium solve(double t, const Tolerance& tolerance, std::vector<Vector>& u);
