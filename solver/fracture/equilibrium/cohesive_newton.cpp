@@ -125,6 +125,7 @@ Equilibrium solve_with_faces(const CohesiveFaces& faces, const std::vector<Inter
     if (whole.converged && has_rate) {  // the overstresses belong to it
       u = std::move(from);
       if (cells) cells();
+      return whole;
     }
     if (whole.converged || !std::isfinite(step.residual)) return whole;
     const bool solved = step.residual < bearable_rest * step.initial_residual;

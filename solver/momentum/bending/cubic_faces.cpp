@@ -139,7 +139,8 @@ std::optional<LocalFit> fit_of(const Mesh& mesh, const Unknowns& unknowns, Index
   const Tensor to_units = edges->inverse();
   std::vector<Index> samples = around.of(cell);
   std::vector<Vector> places;
-  for (const Index s : samples) places.push_back(to_units * (unknowns.place(mesh, s) - mesh.cell_centre[cell]));
+  places.reserve(samples.size());
+  for (const Index s : samples) places.emplace_back(to_units * (unknowns.place(mesh, s) - mesh.cell_centre[cell]));
   const CubicFit fit(places, wanted_monomials(mesh, unknowns, cell, to_units));
   if (!fit.is_sound()) return std::nullopt;
   return LocalFit{.samples = std::move(samples), .to_units = to_units, .fit = fit};
@@ -172,7 +173,7 @@ CubicFaces::CubicFaces(const Mesh& mesh, const Unknowns& unknowns, const std::ve
       samples_.insert(samples_.end(), local->samples.begin(), local->samples.end());
       for (const std::size_t k : of_cell[c]) {
         side_numbers_.push_back(k);
-        to_face_.push_back(mesh.face_centre[sides[k].face] - mesh.cell_centre[c]);
+        to_face_.emplace_back(mesh.face_centre[sides[k].face] - mesh.cell_centre[c]);
         add_coefficients(functionals_of(mesh, sides[k], local->to_units), local->fit, local->to_units, coefficients_);
       }
     }

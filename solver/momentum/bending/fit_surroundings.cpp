@@ -53,6 +53,7 @@ std::vector<Index> FitSurroundings::of_prism(Index cell) {
       if (sees(cell, other, mesh_.cell_centre[other])) cells_.push_back(other);
     }
   };
+  // It grows meanwhile. NOLINTNEXTLINE(modernize-loop-convert)
   for (std::size_t i = 0; i < cells_.size(); ++i) add_beyond(cells_[i], true);
   const std::size_t n_at_points = cells_.size();
   for (std::size_t i = 0; i < n_at_points; ++i) add_beyond(cells_[i], false);

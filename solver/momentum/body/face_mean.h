@@ -15,7 +15,7 @@ namespace pfdm {
 template <class Value>
 auto mean_over_face(const Mesh& mesh, Index face, const Value& value) {
   const Vector& centre = mesh.face_centre[face];
-  const auto middle = value(centre);
+  auto middle = value(centre);
   const Vector n = mesh.face_area[face].normalized();
   const auto points = mesh.points_of_face(face);
   auto differences = middle;

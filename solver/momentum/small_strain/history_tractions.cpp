@@ -98,7 +98,7 @@ void HistoryTractions::find_linear(const std::vector<Vector>& u, Sweep& sweep) c
 
 // n leads outwards from P and from sides, into N.
 Vector HistoryTractions::initial_traction(Index cell, const Vector& n, std::size_t turn) const {
-  const Vector of_cell = initial_stress(cell) * n;
+  Vector of_cell = initial_stress(cell) * n;
   if (gaps_.size() == 0) return of_cell;
   const bool is_N = !skeleton_.is_side(turn) && turn == FaceSkeleton::turn_N(turn / 2);
   return of_cell + (is_N ? -1.0 : 1.0) * initial_of_gaps_[turn];

@@ -188,7 +188,7 @@ Vector IsotropicTractions::link_displacement(std::size_t i, const std::vector<Ve
 Vector IsotropicTractions::gap(Index cell, const Vector& d, std::size_t turn, const Vector& move,
                                const std::vector<Vector>& u, const Sweep& sweep) const {
   const IsotropicSweep& s = of(sweep);
-  const Vector gap = move - rise(cell, d, turn, s);
+  Vector gap = move - rise(cell, d, turn, s);
   if (skeleton_.is_side(turn) || !cells_.layers().weighs(turn / 2)) return gap;
   const std::size_t i = turn / 2, P = FaceSkeleton::turn_P(i), N = FaceSkeleton::turn_N(i);
   const Link& link = skeleton_.links[i];
