@@ -198,7 +198,7 @@ void RunDerivatives::differentiate(const Step& step, Linearised& at, Parameter& 
   Unbalanced rest;
   const auto unsolved = [&] {
     at.move(step.state, x, p.step, moved);
-    if (p.is_load) p.shifted.staggered.balance().prescribe(moved.load, moved.displacement);
+    p.shifted.staggered.balance().prescribe(moved.load, moved.displacement);
     rest = unbalanced_of(p.shifted.staggered, moved, p.is_load ? step.before : p.interfaces);
     return at.difference(rest, p.step);
   };

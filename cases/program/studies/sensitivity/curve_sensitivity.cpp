@@ -1,6 +1,6 @@
 #include "cases/program/studies/sensitivity/curve_sensitivity.h"
 
-#include "cases/program/studies/sensitivity/curve_branches.h"
+#include "cases/program/studies/sensitivity/curve_peak.h"
 
 #include <algorithm>
 #include <cmath>
@@ -28,43 +28,39 @@ Elasticity by_differences(double base, const std::array<double, 4>& y, double st
   return {.value = whole, .error = std::max(std::abs(whole - half), open)};
 }
 
-/// A quantity of an event, and how far it may be off because steps have a length.
+/// A quantity of an event, by polynomials of two orders, and how far it may be off because steps have a length.
 struct Reading {
-  double value = 0.0, hidden = 0.0;
+  double value = 0.0, coarser = 0.0, hidden = 0.0;
 };
 
-/// Displacement and force of a peak about a row, between rows by their interpolation; nothing at a jump.
-std::optional<std::array<double, 2>> smooth_peak(const SampledCurve& curve, const CurveBranches& branches,
-                                                 std::size_t row) {
-  if (row == 0 || row + 1 >= curve.x.size() || branches.branch_of(row - 1) != branches.branch_of(row + 1))
-    return std::nullopt;
-  const auto force = [&](double x) { return branches.at(x)->y; };
-  double from = curve.x[row - 1], to = curve.x[row + 1];
-  constexpr int n_thirds = 80;
-  for (int i = 0; i < n_thirds; ++i) {
-    const double lower = (2.0 * from + to) / 3.0, upper = (from + 2.0 * to) / 3.0;
-    if (force(lower) < force(upper))
-      from = lower;
-    else
-      to = upper;
-  }
-  const double place = 0.5 * (from + to);
-  return std::array{place, force(place)};
+/// The steeper side of a row, of both branches beside it [N/m].
+double steepest(const SampledCurve& curve, std::size_t row) {
+  double most = 0.0;
+  for (std::size_t i = row > 0 ? row - 1 : 0; i < std::min(row + 1, curve.x.size() - 1); ++i)
+    if (curve.x[i + 1] > curve.x[i])
+      most = std::max(most, std::abs((curve.y[i + 1] - curve.y[i]) / (curve.x[i + 1] - curve.x[i])));
+  return most;
+}
+
+std::vector<Reading> readings_of_peak(const SampledCurve& curve, const ComputedEvent& computed) {
+  const CurvePeak peak(curve, CurveBranches(curve), computed.after);
+  const auto [place, coarser] = peak.places();
+  const double off = peak.shape() == CurvePeak::Shape::row ? computed.step / std::sqrt(12.0) : 0.0;
+  return {{place.x, coarser.x, off}, {place.y, coarser.y, off * steepest(curve, computed.after)}};
 }
 
 std::vector<Reading> readings_of(const BaseEvent& event, const SampledCurve& curve, bool& is_there) {
   const ComputedEvent computed = computed_event(event.event, curve);
   is_there = is_there && computed.is_there;
-  const bool is_peak = event.event.kind == EventKind::greatest_force;
+  if (event.event.kind == EventKind::greatest_force && computed.is_there) return readings_of_peak(curve, computed);
   const CurveBranches branches(curve);
-  const auto peak = is_peak && computed.is_there ? smooth_peak(curve, branches, computed.before) : std::nullopt;
   const double place = computed.step / std::sqrt(12.0);
   std::vector<Reading> readings;
   for (const EventQuantity& quantity : event.quantities) {
-    Reading reading{.value = computed.of(quantity.figure), .hidden = place};
+    const double value = computed.of(quantity.figure);
+    Reading reading{.value = value, .coarser = value, .hidden = place};
     if (quantity.figure != EventFigure::displacement)
       reading.hidden *= branches.slope(quantity.figure == EventFigure::force_after ? computed.after : computed.before);
-    if (peak) reading = {.value = (*peak)[quantity.figure == EventFigure::displacement ? 0 : 1], .hidden = 0.0};
     readings.push_back(reading);
   }
   return readings;
@@ -147,9 +143,14 @@ std::vector<Elasticity> elasticities(const BaseEvent& event, const CurvesAround&
   std::vector<Elasticity> found(event.quantities.size());
   if (!are_there) return found;
   for (std::size_t q = 0; q < found.size(); ++q) {
-    const std::array values{readings[0][q].value, readings[1][q].value, readings[2][q].value, readings[3][q].value};
-    found[q] = by_differences(event.quantities[q].value, values, around.step,
-                              std::hypot(readings[0][q].hidden, readings[1][q].hidden));
+    const auto by = [&](double Reading::*figure) {
+      const std::array values{readings[0][q].*figure, readings[1][q].*figure, readings[2][q].*figure,
+                              readings[3][q].*figure};
+      return by_differences(event.quantities[q].value, values, around.step,
+                            std::hypot(readings[0][q].hidden, readings[1][q].hidden));
+    };
+    found[q] = by(&Reading::value);
+    found[q].error = std::max(found[q].error, std::abs(found[q].value - by(&Reading::coarser).value));
   }
   return found;
 }
