@@ -265,6 +265,8 @@ std::optional<CommandLine> read_command_line(const std::vector<std::string>& arg
   CommandLine& line = parser.line;
   line.command = app.get_subcommands().front()->get_name();
   if (line.cases.size() == 1) line.case_directory = line.cases.front();
+  if (line.sensitivity.method == "direct" && app.get_subcommands().front()->count("--step") > 0)
+    throw InputError("sensitivity: --step is that of differences; --method direct takes none");
   if (line.command != "help") return line;
   if (line.schema || !line.reference.empty()) return line;
   if (line.case_directory.empty()) return read_command_line({"--help"}, out);

@@ -33,6 +33,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -152,19 +153,50 @@ CurveModel::ReadCurve curve_reader(const FractureProgram& program) {
   };
 }
 
+/// The same along the way that it moves first; what falls back behind the largest displacement is left out.
+SensitivityJob::ReadForward forward_reader(const FractureProgram& program) {
+  return [component = program.fracture.output.curve.component](const std::filesystem::path& results) {
+    std::vector<CurveRow> rows = read_curve(results / curve_file);
+    const auto first = first_debonding_in(results, rows, component);
+    const auto moved = std::ranges::find_if(rows, [](const CurveRow& row) { return row.displacement != 0.0; });
+    ForwardCurve found{.is_turned = moved != rows.end() && moved->displacement < 0.0};
+    double reached = 0.0;
+    for (CurveRow& row : rows) {
+      if (found.is_turned) row.displacement = -row.displacement, row.force = -row.force;
+      found.n_behind += row.displacement < reached ? 1 : 0;
+      reached = std::max(reached, row.displacement);
+    }
+    found.curve = computed_curve(rows, component, first);
+    return found;
+  };
+}
+
+DirectSensitivity direct_sensitivity(const FractureProgram& program, std::span<const CaseParameter> parameters,
+                                     Session& session) {
+  MeshStore own;
+  const Mesh& mesh = find_mesh(program, own, session.log);
+  if (const std::string why = refusal_of_derivatives(program, mesh); !why.empty())
+    throw InputError(fmt::format("--method direct: there are no direct derivatives of runs with {}", why));
+  FractureRun run = made_run(program, mesh, session.log);
+  return differentiated_run(program, parameters, run, mesh, session);
+}
+
 void sensitivity(const FractureProgram& program, Session& session) {
   std::vector<CaseParameter> fitted;
+  std::vector<std::string> left_out;
   if (program.fit)
-    for (const CurveFitParameter& p : program.fit->parameters)
-      if (!p.in_case.name.starts_with("experiment") && p.in_case.value > 0.0) fitted.push_back(p.in_case);
+    for (const CurveFitParameter& p : program.fit->parameters) {
+      if (!p.in_case.name.starts_with("experiment") && p.in_case.value > 0.0)
+        fitted.push_back(p.in_case);
+      else
+        left_out.push_back(p.in_case.name);
+    }
   run_sensitivity({.file = program.file,
                    .fitted = std::move(fitted),
-                   .read_curve = curve_reader(program),
-                   .direct =
-                       [&program](std::span<const CaseParameter> parameters, Session& s) {
-                         MeshStore own;
-                         return differentiated_run(program, parameters, find_mesh(program, own, s.log), s);
-                       },
+                   .left_out = std::move(left_out),
+                   .read_curve = forward_reader(program),
+                   .direct = [&program](std::span<const CaseParameter> parameters,
+                                        Session& s) { return direct_sensitivity(program, parameters, s); },
                    .name = program.name,
                    .title = program.fracture.title,
                    .hash = program.hash},

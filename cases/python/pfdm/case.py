@@ -160,13 +160,13 @@ class Case:
         call(self.words("fit", output, threads))
         return self.results(output).fit
 
-    def sensitivity(self, output: str | Path | None = None, *, parameters: Sequence[str] = (), step: float | None = None,
+    def sensitivity(self, output: str | Path | None = None, *, parameters: str | Sequence[str] = (), step: float | None = None,
                     method: str | None = None, threads: int | None = None) -> Results:
         """Which parameter of a fracture case moves which part of its curve: elasticities d ln F/d ln p.
 
         Args:
             output: where the results go (None: own_results).
-            parameters: keys of the case; keys joined by "+" keep their ratio. None named: those of [fit], or all
+            parameters: a key of the case, or several; keys joined by "+" keep their ratio. None named: those of [fit], or all
                 positive constants of materials, regions, interfaces and the phase field.
             step: of the differences, relative (None: 0.01).
             method: "differences" of whole runs, or "direct" derivatives of each step of one run.
@@ -177,7 +177,7 @@ class Case:
         """
         words = self.words("sensitivity", output, threads)
         if parameters:
-            words += ["--parameters", ",".join(parameters)]
+            words += ["--parameters", parameters if isinstance(parameters, str) else ",".join(parameters)]
         words += ["--step", repr(step)] if step is not None else []
         words += ["--method", method] if method is not None else []
         call(words)

@@ -12,16 +12,21 @@
 namespace pfdm {
 namespace {
 
-constexpr double load_step = 1e-5;                         // relative, of the derivative by the load
-constexpr double least_unsolved = 1e-6, reduction = 1e-5;  // of the right side, in all and by a solution
-constexpr double null_reduction = 1e-3;                    // by an inverse iteration
+constexpr double load_step = 1e-5;                                     // relative, of the derivative by the load
+constexpr double least_unsolved = 1e-6, reduction_of_solution = 1e-5;  // of the right side, in all and by a solution
+constexpr double null_reduction = 1e-3;                                // by an inverse iteration
 constexpr int null_iterations = 3;
-constexpr double least_share = 1e-3;  // of the right side by the load, against which those of no influence are small
+constexpr double share_by_load = 1e-3;  // of the right side by the load, against which those of no influence are small
 constexpr int most_refinements = 6;
-constexpr Index most_iterations = 300;
+constexpr Index most_linear_iterations = 300;
 
 double dot(const std::vector<Vector>& a, const std::vector<Vector>& b) {
   return parallel_sum(count_of(a), [&](Index i) { return a[i].dot(b[i]); });
+}
+
+/// In the norm of the diagonal, in which displacements and damage add up.
+double scaled_dot(const std::vector<Vector>& a, const std::vector<Vector>& b, const std::vector<double>& scale) {
+  return parallel_sum(count_of(a), [&](Index i) { return a[i].dot(b[i]) / (scale[as_size(i)] * scale[as_size(i)]); });
 }
 
 }  // namespace
@@ -146,8 +151,8 @@ const RunDerivatives::Jump& RunDerivatives::jump(std::size_t k) const { return p
 void RunDerivatives::follow(const FractureState& start, const FractureState& state, bool jumped) {
   if (jumped && last_) {
     if (earlier_) find_jump(*earlier_, &Parameter::earlier_right_side);
-    find_jump(*last_, &Parameter::right_side);
-    for (const auto& p : parameters_) go_to_jump(start, *p);
+    const std::vector<double> scale = find_jump(*last_, &Parameter::right_side);
+    for (const auto& p : parameters_) go_to_jump(start, scale, *p);
   }
   Step step = step_of(start, state);
   Linearised at = linearised(step);
@@ -205,7 +210,7 @@ void RunDerivatives::differentiate(const Step& step, Linearised& at, Parameter& 
   std::vector<Vector> b = unsolved();
   const std::vector<double> scale = system.scale();
   p.earlier_right_side = std::exchange(p.right_side, b);
-  const double whole = std::max(scaled_norm(b, scale), least_share * scaled_norm(load_->right_side, scale));
+  const double whole = std::max(scaled_norm(b, scale), share_by_load * scaled_norm(load_->right_side, scale));
   p.derivative.iterations = 0;
   if (!p.answer.empty() && last_ && last_->state.load > 0.0) {  // the answer before, in proportion
     const double share = step.state.load / last_->state.load;
@@ -217,8 +222,8 @@ void RunDerivatives::differentiate(const Step& step, Linearised& at, Parameter& 
   double norm = scaled_norm(b, scale), last = norm;
   for (int k = 0; k < most_refinements && norm > least_unsolved * whole && (k < 2 || norm < 0.5 * last); ++k) {
     std::vector<Vector> change(system.size(), Vector::Zero());
-    const double due = std::clamp(0.5 * least_unsolved * whole / norm, reduction, 0.5);
-    p.derivative.iterations += system.solve(b, due, most_iterations, change).iterations;
+    const double due = std::clamp(0.5 * least_unsolved * whole / norm, reduction_of_solution, 0.5);
+    p.derivative.iterations += system.solve(b, due, most_linear_iterations, change).iterations;
     parallel_for(count_of(x), [&](Index i) { x[i] += change[i]; });
     b = unsolved();
     last = std::exchange(norm, scaled_norm(b, scale));
@@ -247,10 +252,10 @@ void RunDerivatives::keep(const Step& step, const Linearised& at, const Fracture
 
 // What is frozen by the jump has been reached along the path of the load, without the part that grows beyond all
 // bounds.
-void RunDerivatives::go_to_jump(const FractureState& last, Parameter& p) const {
+void RunDerivatives::go_to_jump(const FractureState& last, const std::vector<double>& scale, Parameter& p) const {
   std::vector<Vector> u = last.displacement;
-  const double square = dot(load_->answer, load_->answer);
-  const double load = square > 0.0 ? -dot(load_->answer, p.answer) / square : 0.0;
+  const double square = scaled_dot(load_->answer, load_->answer, scale);
+  const double load = square > 0.0 ? -scaled_dot(load_->answer, p.answer, scale) / square : 0.0;
   for (std::size_t i = 0; i < u.size(); ++i)
     u[i] += p.step * (p.derivative.displacement[i] + load * load_->derivative.displacement[i]);
   for (Index c = 0; c < mesh_.n_cells(); ++c) p.derivative.damage[c] += load * load_->derivative.damage[c];
@@ -259,7 +264,7 @@ void RunDerivatives::go_to_jump(const FractureState& last, Parameter& p) const {
 }
 
 // Inverse iteration in the norm of the diagonal, from the answer by the load.
-void RunDerivatives::find_jump(const Step& last, std::vector<Vector> Parameter::*right_side) {
+std::vector<double> RunDerivatives::find_jump(const Step& last, std::vector<Vector> Parameter::*right_side) {
   const Linearised at = linearised(last);
   const std::vector<double> scale = at.system->scale();
   std::vector<Vector> null = load_->answer;
@@ -268,13 +273,14 @@ void RunDerivatives::find_jump(const Step& last, std::vector<Vector> Parameter::
     const double size = std::sqrt(dot(null, null));
     for (std::size_t i = 0; i < b.size(); ++i) b[i] /= scale[i] * scale[i] * size;
     std::ranges::fill(null, Vector::Zero());
-    at.system->solve(b, null_reduction, most_iterations, null);
+    at.system->solve(b, null_reduction, most_linear_iterations, null);
   }
   const double by_load = dot(null, (*load_).*right_side);
   for (const auto& p : parameters_) {
     const double load = by_load != 0.0 ? -dot(null, (*p).*right_side) / by_load : 0.0;
     p->jump = {.load = load, .changed = std::abs(load - p->jump.load)};
   }
+  return scale;
 }
 
 }  // namespace pfdm

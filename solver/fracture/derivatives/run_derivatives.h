@@ -71,8 +71,9 @@ class RunDerivatives {
   void differentiate(const Step& step, Linearised& at, Parameter& parameter);
   void keep(const Step& step, const Linearised& at, const FractureState& moved, const Unbalanced& rest,
             Parameter& parameter) const;
-  void find_jump(const Step& last, std::vector<Vector> Parameter::*right_side);
-  void go_to_jump(const FractureState& last, Parameter& parameter) const;
+  /// Returns the scale of the equations there.
+  std::vector<double> find_jump(const Step& last, std::vector<Vector> Parameter::*right_side);
+  void go_to_jump(const FractureState& last, const std::vector<double>& scale, Parameter& parameter) const;
 
   const Mesh& mesh_;
   StaggeredSettings settings_;

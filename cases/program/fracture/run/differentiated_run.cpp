@@ -10,6 +10,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <string_view>
+#include <utility>
 
 namespace pfdm {
 namespace {
@@ -17,10 +19,24 @@ namespace {
 // Relative. Differences of forces lose few digits by it, and their second order is as small.
 constexpr double step_of_differences = 1e-5;
 
-/// The case with a parameter a little greater, and by how much, relative: values are written with eight digits.
+/// What decides on the mesh, the steps and how they are solved: derivatives of one run do not follow it.
+bool is_kept(std::string_view key) {
+  constexpr std::array<std::string_view, 4> tables{"mesh.", "loading.", "solver.", "output."};
+  return std::ranges::any_of(tables, [&](std::string_view table) { return key.starts_with(table); });
+}
+
+/// The case with a parameter a little greater, in all digits, and by how much, relative.
 std::pair<FractureCase, double> shifted_case(const FractureProgram& program, const CaseParameter& parameter) {
-  const std::array value{parameter.value * (1.0 + step_of_differences)};
-  const CaseFile file = with_values(program.file, std::span(&parameter, 1), value);
+  if (std::ranges::any_of(parameter.keys, is_kept))
+    throw InputError("--method direct keeps the mesh and the steps; take --method differences");
+  std::string text = program.file.text;
+  for (std::size_t k = 0; k < parameter.keys.size(); ++k) {
+    const CaseParameter there = case_parameter(parameter.keys[k], program.file);
+    const double si = parameter.value * (1.0 + step_of_differences) * parameter.ratios[k];
+    const std::string value = fmt::format("{:.17g}", there.in_file_units(si));
+    text = with_value(text, there.name, there.unit.empty() ? value : fmt::format("\"{} {}\"", value, there.unit));
+  }
+  const CaseFile file = with_text(program.file, std::move(text));
   const double step = case_parameter(parameter.name, file).value / parameter.value - 1.0;
   return {read_fracture_case(file.config.root(), file.directory), step};
 }
@@ -31,33 +47,51 @@ struct CurveOfRun {
   Index patch;
   int component;
 
+  double sign = 0.0;     // with which it is read: -1 if it moves to negative displacements; 0: not moved yet
+  double largest = 0.0;  // force
+  bool is_after_jump = false;
+
   RowDerivative row(const RunDerivatives::Derivative& by) const {
-    RowDerivative found{.displacement = by.patch_displacement[as_size(patch)][component], .unsolved = by.unsolved};
+    RowDerivative found{.displacement = by.patch_displacement[as_size(patch)][component],
+                        .unsolved = by.unsolved,
+                        .is_after_jump = is_after_jump};
     const Patch& of = mesh.patches[as_size(patch)];
     for (Index f = 0; f < of.n_faces; ++f)
       found.force += by.boundary_force[as_size(of.first_face + f - mesh.n_interior_faces())][component];
+    if (sign < 0.0) found.displacement = -found.displacement, found.force = -found.force;
     return found;
+  }
+  /// Adds a row to the curve; returns whether the force fell at once. Throws InputError where the displacement falls.
+  bool add(const StepReport& report, SampledCurve& to) {
+    const CurveRow row = curve_row(report, patch, component);
+    if (sign == 0.0 && row.displacement != 0.0) sign = row.displacement < 0.0 ? -1.0 : 1.0;
+    const double turn = sign < 0.0 ? -1.0 : 1.0, x = turn * row.displacement, y = turn * row.force[component];
+    if (!to.x.empty() && x < to.x.back())
+      throw InputError(fmt::format(
+          "--method direct: the displacement of the curve falls in step {}; --method differences leaves such rows out",
+          report.step));
+    largest = std::max(largest, std::abs(y));
+    const bool jumped = !to.y.empty() && to.y.back() - y > fall_of_jump * largest;
+    is_after_jump = is_after_jump || jumped;
+    to.x.push_back(x);
+    to.y.push_back(y);
+    return jumped;
   }
 };
 
-/// Whether the force fell at once in the last step.
-bool has_jumped(const std::vector<CurveRow>& rows, int component) {
-  double largest = 0.0;
-  for (const CurveRow& row : rows) largest = std::max(largest, std::abs(row.force[component]));
-  return rows[rows.size() - 2].force[component] - rows.back().force[component] > fall_of_jump * largest;
-}
-
 /// Outside of it signals end the program at once.
-StepReport step_of(FractureRun& run, FractureState& state) {
+StepReport step_of(FractureRun& run, FractureState& state, Log& log) {
   const LooksForStop looks;
-  return run.step(state, [](const IterationReport&) { stop_if_asked(); });
+  StepReport report = run.step(state, [](const IterationReport&) { stop_if_asked(); });
+  for (const std::string& remark : report.remarks) log.warn(remark);
+  return report;
 }
 
 CurveOfRun curve_of(const FractureProgram& program, const Mesh& mesh) {
   const CurveSettings& curve = program.fracture.output.curve;
   Index patch = 0;
   while (mesh.patches[as_size(patch)].name != curve.patch) ++patch;
-  return {mesh, patch, curve.component};
+  return {.mesh = mesh, .patch = patch, .component = curve.component};
 }
 
 /// Adds the parameters that can be; says of the others why not.
@@ -74,6 +108,7 @@ std::vector<std::size_t> add_parameters(const FractureProgram& program, std::spa
       found.failures[j] = error.what();
     }
   }
+  if (added.empty()) throw InputError(fmt::format("--parameters {}: {}", parameters[0].name, found.failures[0]));
   return added;
 }
 
@@ -84,27 +119,21 @@ std::string refusal_of_derivatives(const FractureProgram& program, const Mesh& m
 }
 
 DirectSensitivity differentiated_run(const FractureProgram& program, std::span<const CaseParameter> parameters,
-                                     const Mesh& mesh, Session& session) {
+                                     FractureRun& run, const Mesh& mesh, Session& session) {
   const FractureCase& fracture = program.fracture;
-  const FractureModel model = model_on(fracture, mesh);
-  if (const std::string why = RunDerivatives::refusal(mesh, model, fracture.loading); !why.empty())
-    throw InputError(fmt::format("--method direct: there are no direct derivatives of runs with {}", why));
   DirectSensitivity found;
-  RunDerivatives derivatives(mesh, model, fracture.staggered);
+  RunDerivatives derivatives(mesh, model_on(fracture, mesh), fracture.staggered);
   const std::vector<std::size_t> added = add_parameters(program, parameters, mesh, derivatives, found);
-  FractureRun run(mesh, model, fracture.staggered, fracture.loading);
-  const CurveOfRun curve = curve_of(program, mesh);
+  CurveOfRun curve = curve_of(program, mesh);
   FractureState state = run.initial_state();
-  std::vector<CurveRow> rows{curve_row(run.report_of(state), curve.patch, curve.component)};
+  curve.add(run.report_of(state), found.curve);
   found.by_load.emplace_back();
   found.by.assign(parameters.size(), std::vector<RowDerivative>(1));
   while (!run.is_complete(state)) {
     const double began = cpu_seconds();
     const FractureState start = state;
-    const StepReport report = step_of(run, state);
-    rows.push_back(curve_row(report, curve.patch, curve.component));
+    const bool jumped = curve.add(step_of(run, state, session.log), found.curve);
     const double stepped = cpu_seconds();
-    const bool jumped = has_jumped(rows, curve.component);
     derivatives.follow(start, state, jumped);
     found.by_load.push_back(curve.row(derivatives.by_load()));
     for (std::size_t k = 0; k < added.size(); ++k) {
@@ -116,12 +145,8 @@ DirectSensitivity differentiated_run(const FractureProgram& program, std::span<c
     session.log.step(fmt::format("  step {}: load {:.6g} of {:.6g}, {} iterations of the derivatives", state.step,
                                  state.load, fracture.loading.end, derivatives.iterations()));
   }
-  for (const CurveRow& row : rows) {
-    if (!found.curve.x.empty() && row.displacement < found.curve.x.back())
-      throw InputError("--method direct: the displacement of the curve falls; differences have no rows of that kind");
-    found.curve.x.push_back(row.displacement);
-    found.curve.y.push_back(row.force[curve.component]);
-  }
+  found.is_turned = curve.sign < 0.0;
+  found.may_debond = !run.model().interfaces.empty();
   return found;
 }
 

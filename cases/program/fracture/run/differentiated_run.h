@@ -12,9 +12,9 @@ namespace pfdm {
 /// Why the case has no direct derivatives, as in "a material with a history"; empty if it has.
 std::string refusal_of_derivatives(const FractureProgram& program, const Mesh& mesh);
 
-/// Runs the case, and differentiates each step by each parameter on the mesh of the case. Throws InputError if the case
-/// has no direct derivatives.
+/// Runs the case, and differentiates each step by each parameter on the mesh of the case. Throws InputError if no
+/// parameter can be followed, or the displacement of the curve falls.
 DirectSensitivity differentiated_run(const FractureProgram& program, std::span<const CaseParameter> parameters,
-                                     const Mesh& mesh, Session& session);
+                                     FractureRun& run, const Mesh& mesh, Session& session);
 
 }  // namespace pfdm

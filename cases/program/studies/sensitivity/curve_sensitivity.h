@@ -20,8 +20,9 @@ struct CurvesAround {
 struct Elasticity {
   double value = std::numeric_limits<double>::quiet_NaN();  ///< by the step h
   double error = std::numeric_limits<double>::quiet_NaN();  ///< difference from that by h/2, or what load steps hide
+  bool is_approximate = false;                              ///< behind a jump, where its error is not known
   bool is_known() const { return value == value; }
-  /// Whether it is known and errs by more than a twentieth, and by more than a hundredth of what is proportional to p.
+  /// Whether it is known and approximate, or errs by more than a twentieth of it and by more than a hundredth.
   bool is_doubtful() const;
 };
 

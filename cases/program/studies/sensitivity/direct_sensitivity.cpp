@@ -12,9 +12,10 @@ namespace {
 // share of 1e-6 was an error of 9e-5.
 constexpr double worst_condition = 100.0;
 
-Elasticity elasticity_of(double derivative, double value, double unsolved) {
+Elasticity elasticity_of(double derivative, double value, const RowDerivative& row) {
   return {.value = derivative / value,
-          .error = worst_condition * unsolved * std::max(1.0, std::abs(derivative / value))};
+          .error = worst_condition * row.unsolved * std::max(1.0, std::abs(derivative / value)),
+          .is_approximate = row.is_after_jump};
 }
 
 /// Derivative of the force by ln p at fixed displacement [N].
@@ -31,8 +32,8 @@ std::vector<Elasticity> of_peak(const DirectSensitivity& direct, std::size_t j, 
   for (std::size_t i = 1; i < change.size(); ++i) change[i] = at_fixed_displacement(direct.by[j][i], direct.by_load[i]);
   const auto [place, coarser] = peak.places();
   const auto [moved, by_coarser] = peak.moved_by(change);
-  const double unsolved = direct.by[j][row].unsolved;
-  found = {elasticity_of(moved.x, place.x, unsolved), elasticity_of(moved.y, place.y, unsolved)};
+  const RowDerivative& by = direct.by[j][row];
+  found = {elasticity_of(moved.x, place.x, by), elasticity_of(moved.y, place.y, by)};
   found[0].error = std::max(found[0].error, std::abs(found[0].value - by_coarser.x / coarser.x));
   found[1].error = std::max(found[1].error, std::abs(found[1].value - by_coarser.y / coarser.y));
   return found;
@@ -45,7 +46,8 @@ std::vector<Elasticity> of_jump(const DirectSensitivity& direct, std::size_t j, 
   std::vector<Elasticity> found(event.quantities.size());
   const double displacement = by.displacement + by.jump.load * by_load.displacement;
   found[0] = {.value = displacement / direct.curve.x[jump.before],
-              .error = std::abs(by.jump.error * by_load.displacement / direct.curve.x[jump.before])};
+              .error = std::abs(by.jump.error * by_load.displacement / direct.curve.x[jump.before]),
+              .is_approximate = by.is_after_jump};
   return found;
 }
 
@@ -57,7 +59,7 @@ std::vector<Elasticity> elasticities(const DirectSensitivity& direct, std::size_
   for (std::size_t i = 0; i < found.size(); ++i) {
     const RowDerivative& by = direct.by[parameter][i];
     if (std::abs(direct.curve.y[i]) >= least)
-      found[i] = elasticity_of(at_fixed_displacement(by, direct.by_load[i]), direct.curve.y[i], by.unsolved);
+      found[i] = elasticity_of(at_fixed_displacement(by, direct.by_load[i]), direct.curve.y[i], by);
   }
   return found;
 }

@@ -18,6 +18,7 @@ struct RowDerivative {
   };
   Jump jump{};
   double unsolved = 0.0;  ///< share that the linear equations left
+  bool is_after_jump = false;
 };
 
 struct DirectSensitivity {
@@ -25,6 +26,8 @@ struct DirectSensitivity {
   std::vector<RowDerivative> by_load;               ///< at each row
   std::vector<std::vector<RowDerivative>> by;       ///< of each parameter
   std::vector<std::string> failures;                ///< of each parameter; empty: there is none
+  bool is_turned = false;                           ///< displacements and forces have the other sign in the run
+  bool may_debond = false;                          ///< it has cohesive interfaces
   double seconds_of_run = 0.0, seconds_more = 0.0;  ///< of the processor
 };
 

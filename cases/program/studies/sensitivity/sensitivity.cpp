@@ -9,6 +9,7 @@
 #include "postproc/files/folder_lock.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -28,6 +29,11 @@ std::vector<CaseParameter> parameters_of(const SensitivityJob& job, const Sessio
     found = named_parameters(session.sensitivity.parameters, job.file);
   else if (found.empty())
     found = stated_constants(job.file, remarks);
+  if (session.sensitivity.parameters.empty() && !job.left_out.empty())
+    remarks.push_back(
+        fmt::format("left out of the parameters of [fit], as they are not positive or belong to "
+                    "[experiment]: {}",
+                    fmt::join(job.left_out, ", ")));
   if (found.empty())
     throw InputError(
         "the case states no positive constant of a material, a region or an interface: name values by "
@@ -57,10 +63,26 @@ ParameterSensitivity differentiated(const CaseParameter& parameter, std::span<co
     return result;
   }
   CurvesAround around{.step = step, .curves = {}};
-  for (std::size_t k = 0; k < runs.size(); ++k) around.curves[k] = job.read_curve(runs[k].folder);
+  for (std::size_t k = 0; k < runs.size(); ++k) around.curves[k] = job.read_curve(runs[k].folder).curve;
   result.curve = elasticities(found.curve, around);
   for (const BaseEvent& event : found.events) result.events.push_back(elasticities(event, around));
   return result;
+}
+
+/// Takes the curve of the case itself.
+void take(ForwardCurve forward, CaseSensitivity& found) {
+  constexpr std::size_t least_rows = 3;
+  if (forward.curve.x.size() < least_rows)
+    throw InputError(fmt::format(
+        "the curve has {} in which its displacement grows, and needs three or more: output.curve names its patch",
+        counted(static_cast<Index>(forward.curve.x.size()), "row")));
+  if (forward.is_turned)
+    found.remarks.push_back("the curve moves to negative displacements: these and the forces have the other sign here");
+  if (forward.n_behind > 0)
+    found.remarks.push_back(fmt::format("{} of the curve fell back behind an earlier displacement, and {} left out",
+                                        counted(static_cast<Index>(forward.n_behind), "row"),
+                                        forward.n_behind == 1 ? "is" : "are"));
+  found.curve = std::move(forward.curve);
 }
 
 void with_differences(const SensitivityJob& job, const std::vector<CaseParameter>& parameters, Session& session,
@@ -74,7 +96,7 @@ void with_differences(const SensitivityJob& job, const std::vector<CaseParameter
   const std::vector<DoneRun> done = runs.run(variants_of(job, parameters, session.sensitivity.step));
   if (!done.front().went_well())
     throw ComputationError(fmt::format("the case itself does not come to its end: {}", done.front().failure));
-  found.curve = job.read_curve(done.front().folder);
+  take(job.read_curve(done.front().folder), found);
   found.events = events_of(found.curve);
   for (std::size_t j = 0; j < parameters.size(); ++j)
     found.parameters.push_back(
@@ -86,11 +108,18 @@ void with_differences(const SensitivityJob& job, const std::vector<CaseParameter
 void directly(const SensitivityJob& job, const std::vector<CaseParameter>& parameters, Session& session,
               const std::function<void()>& begin, CaseSensitivity& found) {
   found.doubt =
-      "the state is next to a jump, where the equations of the derivatives are singular. Of a jump's displacement "
+      "the state lies behind a jump, or next to one, where the equations of the derivatives are singular. Of a jump's "
+      "displacement "
       "shorter load steps before it tell more (loading.maximum_increment, loading.finest_increment)";
   const DirectSensitivity direct = job.direct(parameters, session);  // which may refuse the case
   begin();
-  found.curve = direct.curve;
+  take({.curve = direct.curve, .is_turned = direct.is_turned}, found);
+  if (const auto n = std::ranges::count_if(direct.by_load, [](const RowDerivative& row) { return row.is_after_jump; }))
+    found.remarks.push_back(
+        fmt::format("{} lie after a jump, where elasticities are approximate and of unknown error (?)",
+                    counted(static_cast<Index>(n), "row")));
+  if (direct.may_debond)
+    found.remarks.push_back("--method direct does not look for the first debonding; --method differences does");
   found.events = events_of(found.curve);
   for (std::size_t j = 0; j < parameters.size(); ++j) {
     ParameterSensitivity& p =
@@ -137,7 +166,7 @@ void run_sensitivity(const SensitivityJob& job, Session& session) {
   for (const std::string& line : words_of(found)) session.log.say(line);
   for (const std::string& remark : found.remarks) session.log.warn(remark);
   session.log.say(fmt::format("{:.1f} s; written to {} and {}", watch.seconds(),
-                              (session.results / sensitivity_json).string(), sensitivity_file));
+                              (session.results / sensitivity_json).string(), sensitivity_csv));
   report_sensitivity(found, session);
 }
 

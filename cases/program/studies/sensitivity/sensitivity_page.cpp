@@ -11,7 +11,7 @@
 namespace pfdm {
 namespace {
 
-constexpr std::size_t most_lines = 7, most_columns = 5;
+constexpr std::size_t most_lines = 7, columns_of_events = 5;
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 /// Both charts have the same axis of displacements.
@@ -82,7 +82,7 @@ Table parameters_table(const CaseSensitivity& found) {
   for (const ParameterSensitivity& p : found.parameters) {
     const auto overview = p.overview(found.curve);
     if (!overview.largest) continue;
-    table.rows.push_back({p.parameter.name, in_print(p.parameter.shown(p.parameter.value)),
+    table.rows.push_back({full_name(p.parameter), in_print(p.parameter.shown(p.parameter.value)),
                           fmt::format("{:.3f}", p.curve[*overview.largest].value),
                           shown(found.curve.x[*overview.largest], "m"), fmt::format("{:.3f}", overview.mean),
                           fmt::format("{:.2g}", overview.error)});
@@ -123,9 +123,9 @@ ReportPage sensitivity_page(const CaseSensitivity& found) {
   page.rows.push_back({.blocks = {elasticity_chart(found, x)}, .height = 1.3});
   page.rows.push_back({.blocks = {parameters_table(found)}});
   const std::span all(found.parameters);
-  for (std::size_t from = 0; from < all.size() && !found.events.empty(); from += most_columns)
+  for (std::size_t from = 0; from < all.size() && !found.events.empty(); from += columns_of_events)
     page.rows.push_back(
-        {.blocks = {events_table(found, all.subspan(from, std::min(most_columns, all.size() - from)))}});
+        {.blocks = {events_table(found, all.subspan(from, std::min(columns_of_events, all.size() - from)))}});
   if (!found.remarks.empty())
     page.rows.push_back({.blocks = {TextBlock{.caption = "Remarks", .lines = found.remarks}}});
   return page;
@@ -136,7 +136,7 @@ void report_sensitivity(const CaseSensitivity& found, Session& session) {
   const auto strongest = std::ranges::find_if(
       found.parameters, [&](const ParameterSensitivity& p) { return p.overview(found.curve).largest.has_value(); });
   if (strongest != found.parameters.end())
-    extras.headline.push_back(fmt::format("{} moves the curve most.", strongest->parameter.name));
+    extras.headline.push_back(fmt::format("{} moves the curve most.", full_name(strongest->parameter)));
   write_pages(session.results / "sensitivity", sensitivity_page(found), session, std::move(extras));
 }
 

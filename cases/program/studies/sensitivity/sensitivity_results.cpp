@@ -94,6 +94,10 @@ CsvTable table_of(const CaseSensitivity& found) {
   return table;
 }
 
+std::string with_number_of_keys(const std::string& name, const CaseParameter& parameter) {
+  return parameter.keys.size() > 1 ? fmt::format("{} + {} more", name, parameter.keys.size() - 1) : name;
+}
+
 /// How often an elasticity of the curve or of an event is as asked for.
 template <class Ask>
 std::size_t count(const CaseSensitivity& found, const Ask& ask) {
@@ -148,14 +152,16 @@ void conclude(CaseSensitivity& found) {
   };
   std::ranges::stable_sort(found.parameters, {}, rank);
   for (const ParameterSensitivity& p : found.parameters)
-    if (!p.failure.empty()) found.remarks.push_back(fmt::format("none by {}: {}", p.parameter.name, p.failure));
+    if (!p.failure.empty()) found.remarks.push_back(fmt::format("none by {}: {}", full_name(p.parameter), p.failure));
   if (const std::size_t n = count(found, [](const Elasticity& e) { return e.is_doubtful(); }))
     found.remarks.push_back(fmt::format("{} elasticities are doubtful (?): {}", n, found.doubt));
 }
 
+std::string full_name(const CaseParameter& parameter) { return with_number_of_keys(parameter.name, parameter); }
+
 std::string short_name(const CaseParameter& parameter) {
   const bool has_own = parameter.name.starts_with("materials.") || parameter.name.starts_with("regions.");
-  return has_own ? parameter.short_name() : parameter.name;
+  return with_number_of_keys(has_own ? parameter.short_name() : parameter.name, parameter);
 }
 
 std::string text_of(const Elasticity& elasticity) {
@@ -169,13 +175,13 @@ void write_sensitivity(const std::filesystem::path& folder, const CaseSensitivit
   const Json json{{"case", found.name},      {"case_hash", found.hash},  {"version", found.version},
                   {"method", found.method},  {"parameters", parameters}, {"events", events_of(found)},
                   {"remarks", found.remarks}};
-  write_csv(folder / sensitivity_file, table_of(found));
+  write_csv(folder / sensitivity_csv, table_of(found));
   write_file(folder / sensitivity_json, json_text(json));
 }
 
 std::vector<std::string> words_of(const CaseSensitivity& found) {
   std::size_t width = 9;
-  for (const ParameterSensitivity& p : found.parameters) width = std::max(width, p.parameter.name.size());
+  for (const ParameterSensitivity& p : found.parameters) width = std::max(width, full_name(p.parameter).size());
   std::vector<std::string> lines{
       "elasticities d ln F/d ln p of the curve: with p greater by 1 % the force is greater by so many %",
       fmt::format("  {:<{}}  {:>14}  {:>8}  {:>10}  {:>6}  {:>8}", "parameter", width, "value", "largest", "at", "mean",
@@ -183,7 +189,7 @@ std::vector<std::string> words_of(const CaseSensitivity& found) {
   for (const ParameterSensitivity& p : found.parameters) {
     const auto overview = p.overview(found.curve);
     if (!overview.largest) continue;
-    lines.push_back(fmt::format("  {:<{}}  {:>14}  {:>8.3f}  {:>10}  {:>6.3f}  {:>8.2g}", p.parameter.name, width,
+    lines.push_back(fmt::format("  {:<{}}  {:>14}  {:>8.3f}  {:>10}  {:>6.3f}  {:>8.2g}", full_name(p.parameter), width,
                                 p.parameter.shown(p.parameter.value), p.curve[*overview.largest].value,
                                 quantity_text(found.curve.x[*overview.largest], "m"), overview.mean, overview.error));
   }

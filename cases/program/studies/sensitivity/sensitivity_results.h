@@ -37,7 +37,7 @@ struct CaseSensitivity {
   std::vector<std::string> remarks;              ///< sentences
 };
 
-inline constexpr const char* sensitivity_file = "sensitivity.csv";
+inline constexpr const char* sensitivity_csv = "sensitivity.csv";
 inline constexpr const char* sensitivity_json = "sensitivity.json";
 
 /// Brings the parameters into their order, and adds remarks on what is doubtful or missing.
@@ -49,7 +49,10 @@ void write_sensitivity(const std::filesystem::path& folder, const CaseSensitivit
 /// Lines of a table of the parameters, and of one for each event.
 std::vector<std::string> words_of(const CaseSensitivity& found);
 
-/// Its name, without the table where it is one of a material or a region.
+/// Its name, of joined keys as "materials.concrete.toughness + 1 more".
+std::string full_name(const CaseParameter& parameter);
+
+/// The same without the table where it is one of a material or a region.
 std::string short_name(const CaseParameter& parameter);
 
 /// "0.512 +- 0.002", with a question mark where it is doubtful; "-" where there is none.
