@@ -191,13 +191,26 @@ RunDerivatives::Linearised RunDerivatives::linearised(const Step& step) {
   return at;
 }
 
+/// The answer of the cells whose damage is that of the step before; zero elsewhere.
+std::vector<Vector> RunDerivatives::inherited(const Step& step, const CoupledSystem& system, const Parameter& p) const {
+  std::vector<Vector> x(system.size(), Vector::Zero());
+  if (p.is_load) return x;
+  for (Index c = 0; c < mesh_.n_cells(); ++c)
+    if (system.is_held(c) && step.inherits[as_size(c)] != 0) system.of(x, c) = p.derivative.damage[c] * system.root(c);
+  return x;
+}
+
+/// The answer of the step before, in proportion to the load.
+void RunDerivatives::extrapolate(double share, const CoupledSystem& system, const Parameter& p,
+                                 std::vector<Vector>& x) const {
+  for (std::size_t i = 0; i < system.n_displacements(); ++i) x[i] = share * p.answer[i];
+  for (Index c = 0; c < mesh_.n_cells(); ++c)
+    if (!system.is_held(c)) system.of(x, c) = share * p.derivative.damage[c] * system.root(c);
+}
+
 void RunDerivatives::differentiate(const Step& step, Linearised& at, Parameter& p) {
   CoupledSystem& system = *at.system;
-  std::vector<Vector> x(system.size(), Vector::Zero());
-  if (!p.is_load)
-    for (Index c = 0; c < mesh_.n_cells(); ++c)
-      if (system.is_held(c) && step.inherits[as_size(c)] != 0)
-        system.of(x, c) = p.derivative.damage[c] * system.root(c);
+  std::vector<Vector> x = inherited(step, system, p);
   FractureState moved = step.state;
   if (p.is_load) moved.load *= 1.0 + p.step;
   Unbalanced rest;
@@ -212,11 +225,8 @@ void RunDerivatives::differentiate(const Step& step, Linearised& at, Parameter& 
   p.earlier_right_side = std::exchange(p.right_side, b);
   const double whole = std::max(scaled_norm(b, scale), share_by_load * scaled_norm(load_->right_side, scale));
   p.derivative.iterations = 0;
-  if (!p.answer.empty() && last_ && last_->state.load > 0.0) {  // the answer before, in proportion
-    const double share = step.state.load / last_->state.load;
-    for (std::size_t i = 0; i < system.n_displacements(); ++i) x[i] = share * p.answer[i];
-    for (Index c = 0; c < mesh_.n_cells(); ++c)
-      if (!system.is_held(c)) system.of(x, c) = share * p.derivative.damage[c] * system.root(c);
+  if (!p.answer.empty() && last_ && last_->state.load > 0.0) {
+    extrapolate(step.state.load / last_->state.load, system, p, x);
     b = unsolved();
   }
   double norm = scaled_norm(b, scale), last = norm;

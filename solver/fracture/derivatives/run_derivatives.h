@@ -68,6 +68,8 @@ class RunDerivatives {
   std::unique_ptr<Parameter> parameter(const FractureModel& model, double step, bool is_load);
   Step step_of(const FractureState& start, const FractureState& state) const;
   Linearised linearised(const Step& step);
+  std::vector<Vector> inherited(const Step& step, const CoupledSystem& system, const Parameter& parameter) const;
+  void extrapolate(double share, const CoupledSystem& system, const Parameter& parameter, std::vector<Vector>& x) const;
   void differentiate(const Step& step, Linearised& at, Parameter& parameter);
   void keep(const Step& step, const Linearised& at, const FractureState& moved, const Unbalanced& rest,
             Parameter& parameter) const;

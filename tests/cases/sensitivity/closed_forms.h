@@ -12,6 +12,7 @@
 #include <map>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace pfdm {
@@ -110,6 +111,34 @@ inline double force_of_blocks(const Values& p, double u) {
   const double last = 2.0 * p.at(law_toughness) / s, opened = (last - u) / (last - s * 2e-3 / p.at(modulus));
   return 1e-6 * (elastic < s ? elastic : s * std::max(0.0, opened));
 }
+
+/// They peak at a corner, F = A s at u = L s/E.
+inline void expect_corner_of_blocks(const nlohmann::json& found) {
+  const std::map<std::string, std::pair<double, double>> due{
+      {modulus, {-1.0, 0.0}}, {law_strength, {1.0, 1.0}}, {law_toughness, {0.0, 0.0}}};
+  for (const auto& [key, values] : due) {
+    const auto of = [&](const char* figure) { return of_event(found, "greatest force", figure, key); };
+    EXPECT_NEAR(of("displacement")["elasticity"].get<double>(), values.first, 1e-3) << key;
+    EXPECT_NEAR(of("force")["elasticity"].get<double>(), values.second, 1e-3) << key;
+    EXPECT_FALSE(of("displacement")["doubtful"].get<bool>()) << key;
+  }
+}
+
+/// A block pulled along x by 2 um and along y by 1 um, at plane strain: F = E/((1 + nu)(1 - 2 nu)) ((1 - nu) e_x + nu
+/// e_y) A, e = 1e-3 (1, 1).
+inline std::string block_pulled_twice() {
+  std::string text = replaced(short_bar(), "toughness = \"100 J/m^2\"", "damageable = false");
+  text = replaced(text, "poisson_ratio = 0.0", "poisson_ratio = 0.3");
+  text = replaced(text, "model = \"AT2\"\n", "");
+  text = replaced(text, "length = \"4 mm\"\n[[boundary]]", "[[boundary]]");
+  text =
+      replaced(text, "patches = [\"ymin\", \"ymax\", \"zmin\", \"zmax\"]", "patches = [\"ymin\", \"zmin\", \"zmax\"]");
+  text = replaced(text, "[loading]",
+                  "[[boundary]]\npatch = \"ymax\"\ndisplacement = [\"free\", \"0.001 mm\", \"free\"]\n[loading]");
+  text = replaced(text, "initial_increment = 0.02", "initial_increment = 0.25");
+  return replaced(text, "maximum_increment = 0.02", "maximum_increment = 0.25");
+}
+inline const std::string sideways = "boundary[3].displacement[1]";
 
 inline std::string finely_pulled_blocks() {
   const std::string blocks =

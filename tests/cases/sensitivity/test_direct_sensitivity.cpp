@@ -90,7 +90,7 @@ TEST(DirectSensitivity, OfABarThatBreaksIsThatOfDifferences) {
 
 TEST(DirectSensitivity, OfGluedBlocksHasItsClosedForm) {
   const TemporaryCase directory(finely_pulled_blocks());
-  found_in(directory, direct);
+  const auto found = found_in(directory, direct);
   const CsvTable table = read_csv(directory.results() / "sensitivity.csv", {.has_gaps = true});
   const std::vector<double>& u = table.column("displacement_m");
   const Values values{{modulus, 1e9}, {law_strength, strength}, {law_toughness, toughness}};
@@ -105,6 +105,36 @@ TEST(DirectSensitivity, OfGluedBlocksHasItsClosedForm) {
     }
   }
   EXPECT_GT(n, 100);
+  EXPECT_THAT(found["remarks"].dump(), HasSubstr("does not look for the first debonding"));
+}
+
+TEST(DirectSensitivity, OfAPrescribedDisplacementHasItsClosedForm) {
+  const TemporaryCase directory(block_pulled_twice());
+  const auto found = found_in(directory, {"--method", "direct", "--parameters", sideways});
+  EXPECT_NEAR(found["parameters"][0]["mean_magnitude"].get<double>(), 0.3, 1e-4);
+}
+
+// Both displacements together leave the force at a displacement as it is; the ratio of 3 is none of few digits.
+TEST(DirectSensitivity, OfJoinedKeysKeepsTheirRatio) {
+  const TemporaryCase directory(replaced(block_pulled_twice(), "\"0.001 mm\"", "\"0.00033333333 mm\""));
+  const auto found =
+      found_in(directory, {"--method", "direct", "--parameters", "boundary[1].displacement[0]+" + sideways});
+  EXPECT_EQ(found["parameters"][0]["keys"].size(), 2u);
+  EXPECT_NEAR(found["parameters"][0]["mean_magnitude"].get<double>(), 0.0, 1e-5);
+}
+
+TEST(DirectSensitivity, RefusesWhatItDoesNotFollow) {
+  const TemporaryCase directory(block_pulled_twice());
+  const std::string increment = "loading.maximum_increment";
+  const auto found = found_in(directory, {"--method", "direct", "--parameters", increment + "," + E_key});
+  EXPECT_THAT(found["parameters"][1]["failure"].get<std::string>(), HasSubstr("keeps the mesh and the steps"));
+  const auto refused = [&](const std::string& option, const std::string& value, const std::string& message) {
+    const Outcome outcome = run({"sensitivity", directory.path().string(), "--method", "direct", option, value});
+    EXPECT_EQ(outcome.status, 2) << option;
+    EXPECT_THAT(outcome.err, HasSubstr(message)) << option;
+  };
+  refused("--parameters", increment, "take --method differences");
+  refused("--step", "0.1", "--method direct takes none");
 }
 
 TEST(DirectSensitivity, IsRefusedWhereModelsHaveNone) {

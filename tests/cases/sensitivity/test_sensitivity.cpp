@@ -42,7 +42,7 @@ TEST(Sensitivity, OfABarThatSoftensEvenlyHasItsClosedForm) {
 
 TEST(Sensitivity, OfGluedBlocksHasItsClosedForm) {
   const TemporaryCase directory(finely_pulled_blocks());
-  const auto found = found_in(directory);
+  found_in(directory);
   const CsvTable table = read_csv(directory.results() / "sensitivity.csv", {.has_gaps = true});
   const std::vector<double>& u = table.column("displacement_m");
   const Values values{{modulus, 1e9}, {law_strength, strength}, {law_toughness, toughness}};
@@ -84,6 +84,42 @@ TEST(Sensitivity, KeepsTheRatiosOfKeysThatAreJoined) {
   EXPECT_EQ(found["parameters"][0]["keys"].size(), 2u);
   const auto jump = of_event(found, "jump 1", "displacement", "materials.concrete.toughness");
   EXPECT_NEAR(jump["elasticity"].get<double>(), 0.5, 2.0 * jump["error"].get<double>());
+}
+
+TEST(Sensitivity, OfACornerIsThatOfBothSides) {
+  const TemporaryCase directory(finely_pulled_blocks());
+  for (const std::string method : {"differences", "direct"})
+    expect_corner_of_blocks(found_in(directory, {"--method", method, "--set", "loading.initial_increment=0.01", "--set",
+                                                 "loading.maximum_increment=0.01"}));
+  // Of load steps with too few rows before it the place is open by as much as they are long.
+  const auto differences = found_in(directory);
+  EXPECT_TRUE(of_event(differences, "greatest force", "displacement", modulus)["doubtful"].get<bool>());
+  const auto direct = found_in(directory, {"--method", "direct"});
+  EXPECT_TRUE(of_event(direct, "greatest force", "displacement", modulus)["elasticity"].is_null());
+}
+
+TEST(Sensitivity, TurnsACurveOfNegativeDisplacements) {
+  const TemporaryCase pressed(
+      replaced(replaced(block_pulled_twice(), "\"0.002 mm\"", "\"-0.002 mm\""), "\"0.001 mm\"", "\"-0.001 mm\""));
+  for (const std::string method : {"differences", "direct"}) {
+    const auto found = found_in(pressed, {"--method", method, "--parameters", E_key});
+    EXPECT_NEAR(found["parameters"][0]["mean_magnitude"].get<double>(), 1.0, 1e-4) << method;
+    EXPECT_THAT(found["remarks"].dump(), HasSubstr("negative displacements")) << method;
+  }
+}
+
+TEST(Sensitivity, LeavesOutRowsThatFallBack) {
+  const TemporaryCase directory(
+      replaced(block_pulled_twice(), "[\"0.002 mm\"", "[{ expr = \"0.002*sin(6.2831853*t)\", unit = \"mm\" }"));
+  const std::vector<std::string> words{
+      "--parameters", E_key, "--set", "loading.initial_increment=0.05", "--set", "loading.maximum_increment=0.05"};
+  const auto found = found_in(directory, words);
+  EXPECT_THAT(found["remarks"].dump(), HasSubstr("15 rows of the curve fell back"));
+  std::vector<std::string> direct{"sensitivity", directory.path().string(), "--method", "direct"};
+  direct.insert(direct.end(), words.begin(), words.end());
+  const Outcome outcome = run(direct);
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_THAT(outcome.err, HasSubstr("the displacement of the curve falls in step 6"));
 }
 
 TEST(Sensitivity, RefusesWhatIsNoParameter) {

@@ -94,7 +94,7 @@ double least_force(const SampledCurve& curve) {
 }
 
 bool Elasticity::is_doubtful() const {
-  return is_known() && (is_approximate || error > std::max(share_of_doubt * std::abs(value), least_doubt));
+  return is_known() && !(error <= std::max(share_of_doubt * std::abs(value), least_doubt));
 }
 
 std::vector<Elasticity> elasticities(const SampledCurve& base, const CurvesAround& around) {

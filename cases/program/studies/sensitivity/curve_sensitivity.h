@@ -16,13 +16,13 @@ struct CurvesAround {
   std::array<SampledCurve, 4> curves;
 };
 
-/// A derivative of a logarithm by a logarithm; NaN where there is none.
+/// A derivative of a logarithm by a logarithm; NaN where there is none. The error of differences is that from the ones
+/// by h/2, and no less than what load steps hide.
 struct Elasticity {
-  double value = std::numeric_limits<double>::quiet_NaN();  ///< by the step h
-  double error = std::numeric_limits<double>::quiet_NaN();  ///< difference from that by h/2, or what load steps hide
-  bool is_approximate = false;                              ///< behind a jump, where its error is not known
+  double value = std::numeric_limits<double>::quiet_NaN();  ///< of differences by the step h
+  double error = std::numeric_limits<double>::quiet_NaN();  ///< NaN: not known
   bool is_known() const { return value == value; }
-  /// Whether it is known and approximate, or errs by more than a twentieth of it and by more than a hundredth.
+  /// Whether it is known, and not by how much it errs, or that is more than a twentieth of it and than a hundredth.
   bool is_doubtful() const;
 };
 

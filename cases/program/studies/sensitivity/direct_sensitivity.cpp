@@ -3,6 +3,7 @@
 #include "cases/program/studies/sensitivity/curve_peak.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace pfdm {
@@ -12,10 +13,11 @@ namespace {
 // share of 1e-6 was an error of 9e-5.
 constexpr double worst_condition = 100.0;
 
+/// Of a state behind a jump the error is not known.
 Elasticity elasticity_of(double derivative, double value, const RowDerivative& row) {
-  return {.value = derivative / value,
-          .error = worst_condition * row.unsolved * std::max(1.0, std::abs(derivative / value)),
-          .is_approximate = row.is_after_jump};
+  const double elasticity = derivative / value;
+  if (row.is_after_jump) return {.value = elasticity};
+  return {.value = elasticity, .error = worst_condition * row.unsolved * std::max(1.0, std::abs(elasticity))};
 }
 
 /// Derivative of the force by ln p at fixed displacement [N].
@@ -34,8 +36,9 @@ std::vector<Elasticity> of_peak(const DirectSensitivity& direct, std::size_t j, 
   const auto [moved, by_coarser] = peak.moved_by(change);
   const RowDerivative& by = direct.by[j][row];
   found = {elasticity_of(moved.x, place.x, by), elasticity_of(moved.y, place.y, by)};
-  found[0].error = std::max(found[0].error, std::abs(found[0].value - by_coarser.x / coarser.x));
-  found[1].error = std::max(found[1].error, std::abs(found[1].value - by_coarser.y / coarser.y));
+  const std::array apart{found[0].value - by_coarser.x / coarser.x, found[1].value - by_coarser.y / coarser.y};
+  for (std::size_t q = 0; q < 2; ++q)  // of errors that are not known none is told
+    if (std::abs(apart[q]) > found[q].error) found[q].error = std::abs(apart[q]);
   return found;
 }
 
@@ -45,9 +48,8 @@ std::vector<Elasticity> of_jump(const DirectSensitivity& direct, std::size_t j, 
   const RowDerivative &by = direct.by[j][jump.before], &by_load = direct.by_load[jump.before];
   std::vector<Elasticity> found(event.quantities.size());
   const double displacement = by.displacement + by.jump.load * by_load.displacement;
-  found[0] = {.value = displacement / direct.curve.x[jump.before],
-              .error = std::abs(by.jump.error * by_load.displacement / direct.curve.x[jump.before]),
-              .is_approximate = by.is_after_jump};
+  found[0].value = displacement / direct.curve.x[jump.before];
+  if (!by.is_after_jump) found[0].error = std::abs(by.jump.error * by_load.displacement / direct.curve.x[jump.before]);
   return found;
 }
 

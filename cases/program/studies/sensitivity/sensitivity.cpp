@@ -3,6 +3,7 @@
 #include "cases/program/session/head_line.h"
 #include "cases/program/session/terminal/stopwatch.h"
 #include "cases/program/studies/runs/case_runs.h"
+#include "cases/program/studies/sensitivity/curve_peak.h"
 #include "cases/program/studies/sensitivity/sensitivity_page.h"
 #include "cases/program/studies/sensitivity/sensitivity_parameters.h"
 #include "cases/program/studies/sensitivity/sensitivity_results.h"
@@ -105,6 +106,26 @@ void with_differences(const SensitivityJob& job, const std::vector<CaseParameter
   session.log.say(fmt::format("{} runs made, {} reused", runs.n_made(), runs.n_reused()));
 }
 
+CurvePeak::Shape shape_of_peak(const SampledCurve& curve) {
+  const auto row = static_cast<std::size_t>(std::ranges::max_element(curve.y) - curve.y.begin());
+  return CurvePeak(curve, CurveBranches(curve), row).shape();
+}
+
+/// On what one run with derivatives leaves open.
+void add_remarks(const DirectSensitivity& direct, CaseSensitivity& found) {
+  const auto n = std::ranges::count_if(direct.by_load, [](const RowDerivative& row) { return row.is_after_jump; });
+  if (n > 0)
+    found.remarks.push_back(fmt::format("{} lie after a jump, where elasticities are approximate, by an unknown error",
+                                        counted(static_cast<Index>(n), "row")));
+  if (direct.may_debond)
+    found.remarks.push_back("--method direct does not look for the first debonding; --method differences does");
+  const auto is_peak = [](const BaseEvent& e) { return e.event.kind == EventKind::greatest_force; };
+  if (std::ranges::any_of(found.events, is_peak) && shape_of_peak(direct.curve) == CurvePeak::Shape::row)
+    found.remarks.push_back(
+        "the greatest force is neither smooth nor a corner between enough rows: it has no direct derivative. Shorter "
+        "load steps about it may show one (loading.maximum_increment)");
+}
+
 void directly(const SensitivityJob& job, const std::vector<CaseParameter>& parameters, Session& session,
               const std::function<void()>& begin, CaseSensitivity& found) {
   found.doubt =
@@ -114,13 +135,8 @@ void directly(const SensitivityJob& job, const std::vector<CaseParameter>& param
   const DirectSensitivity direct = job.direct(parameters, session);  // which may refuse the case
   begin();
   take({.curve = direct.curve, .is_turned = direct.is_turned}, found);
-  if (const auto n = std::ranges::count_if(direct.by_load, [](const RowDerivative& row) { return row.is_after_jump; }))
-    found.remarks.push_back(
-        fmt::format("{} lie after a jump, where elasticities are approximate and of unknown error (?)",
-                    counted(static_cast<Index>(n), "row")));
-  if (direct.may_debond)
-    found.remarks.push_back("--method direct does not look for the first debonding; --method differences does");
   found.events = events_of(found.curve);
+  add_remarks(direct, found);
   for (std::size_t j = 0; j < parameters.size(); ++j) {
     ParameterSensitivity& p =
         found.parameters.emplace_back(ParameterSensitivity{.parameter = parameters[j], .failure = direct.failures[j]});

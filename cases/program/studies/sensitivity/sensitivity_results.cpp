@@ -166,6 +166,7 @@ std::string short_name(const CaseParameter& parameter) {
 
 std::string text_of(const Elasticity& elasticity) {
   if (!elasticity.is_known()) return "-";
+  if (std::isnan(elasticity.error)) return fmt::format("{:.3f} ?", elasticity.value);
   return fmt::format("{:.3f} +- {:.2g}{}", elasticity.value, elasticity.error, elasticity.is_doubtful() ? " ?" : "");
 }
 
