@@ -199,7 +199,7 @@ class Sensitivities(Folder):
     def test_are_tables_and_events(self):
         case = bar()
         direct = case.sensitivity(self.folder / "direct", parameters=[young_modulus, toughness], method="direct")
-        differences = case.sensitivity(self.folder / "differences", parameters=[young_modulus], step=0.02)
+        differences = case.sensitivity(self.folder / "differences", parameters=young_modulus, step=0.02)
         first, other = (r.sensitivity[f"elasticity_{young_modulus}"].dropna().iloc[0] for r in (direct, differences))
         self.assertAlmostEqual(first, other, places=3)
         self.assertGreater(first, 0.8)

@@ -160,8 +160,8 @@ class Case:
         call(self.words("fit", output, threads))
         return self.results(output).fit
 
-    def sensitivity(self, output: str | Path | None = None, *, parameters: str | Sequence[str] = (), step: float | None = None,
-                    method: str | None = None, threads: int | None = None) -> Results:
+    def sensitivity(self, output: str | Path | None = None, *, parameters: str | Sequence[str] = (),
+                    step: float | None = None, method: str | None = None, threads: int | None = None) -> Results:
         """Which parameter of a fracture case moves which part of its curve: elasticities d ln F/d ln p.
 
         Args:
