@@ -82,6 +82,8 @@ TEST(Sensitivity, KeepsTheRatiosOfKeysThatAreJoined) {
       directory, {"--parameters", "materials.concrete.toughness+regions.weak.toughness", "--set",
                   "loading.initial_increment=0.01", "--set", "loading.maximum_increment=0.01", "--step", "0.1"});
   EXPECT_EQ(found["parameters"][0]["keys"].size(), 2u);
+  EXPECT_THAT(content_of(directory.results() / "sensitivity/index.html"),
+              HasSubstr("materials.concrete.toughness + 1 more"));
   const auto jump = of_event(found, "jump 1", "displacement", "materials.concrete.toughness");
   EXPECT_NEAR(jump["elasticity"].get<double>(), 0.5, 2.0 * jump["error"].get<double>());
 }
@@ -96,6 +98,21 @@ TEST(Sensitivity, OfACornerIsThatOfBothSides) {
   EXPECT_TRUE(of_event(differences, "greatest force", "displacement", modulus)["doubtful"].get<bool>());
   const auto direct = found_in(directory, {"--method", "direct"});
   EXPECT_TRUE(of_event(direct, "greatest force", "displacement", modulus)["elasticity"].is_null());
+}
+
+// Damage of AT1 begins at u = L (3 Gc/(8 E ell))^(1/2), at a corner of the curve.
+TEST(Sensitivity, OfTheCornerOfAT1IsWithinItsError) {
+  const TemporaryCase directory(replaced(replaced(short_bar(), "AT2", "AT1"), "\"0.002 mm\"", "\"0.003 mm\""));
+  for (const std::string method : {"differences", "direct"}) {
+    const auto found =
+        found_in(directory, {"--method", method, "--parameters", Gc_key, "--set", "loading.initial_increment=0.005",
+                             "--set", "loading.maximum_increment=0.005"});
+    for (const char* figure : {"displacement", "force"}) {
+      const auto of = of_event(found, "greatest force", figure, Gc_key);
+      EXPECT_LT(of["error"].get<double>(), 0.02) << method;
+      EXPECT_NEAR(of["elasticity"].get<double>(), 0.5, of["error"].get<double>()) << method;
+    }
+  }
 }
 
 TEST(Sensitivity, TurnsACurveOfNegativeDisplacements) {

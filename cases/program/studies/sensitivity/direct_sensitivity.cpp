@@ -34,7 +34,8 @@ std::vector<Elasticity> of_peak(const DirectSensitivity& direct, std::size_t j, 
   for (std::size_t i = 1; i < change.size(); ++i) change[i] = at_fixed_displacement(direct.by[j][i], direct.by_load[i]);
   const auto [place, coarser] = peak.places();
   const auto [moved, by_coarser] = peak.moved_by(change);
-  const RowDerivative& by = direct.by[j][row];
+  RowDerivative by = direct.by[j][row];
+  for (std::size_t i = row - 1; i <= row + 1; ++i) by.unsolved = std::max(by.unsolved, direct.by[j][i].unsolved);
   found = {elasticity_of(moved.x, place.x, by), elasticity_of(moved.y, place.y, by)};
   const std::array apart{found[0].value - by_coarser.x / coarser.x, found[1].value - by_coarser.y / coarser.y};
   for (std::size_t q = 0; q < 2; ++q)  // of errors that are not known none is told
