@@ -120,6 +120,7 @@ std::string event_line(const CaseSensitivity& found, std::size_t e, std::size_t 
   }
   std::ranges::stable_sort(by, {}, &std::pair<double, std::string>::first);
   std::vector<std::string> words;
+  words.reserve(by.size());
   for (const auto& [order, text] : by) words.push_back(text);
   const EventQuantity& quantity = found.events[e].quantities[q];
   return fmt::format("  {} {}: {}", in_words(quantity.figure), quantity_text(quantity.value, unit_of(quantity.figure)),
