@@ -34,7 +34,7 @@ struct DirectSensitivity {
 /// At each row, at fixed displacement. Unknown where the force is below a hundredth of its largest.
 std::vector<Elasticity> elasticities(const DirectSensitivity& direct, std::size_t parameter);
 
-/// Of each quantity of an event: a smooth peak from the rows about it, a jump from the last state before it.
+/// Of each quantity of an event: a greatest force from the rows about it, a jump from the last state before it.
 std::vector<Elasticity> elasticities(const DirectSensitivity& direct, std::size_t parameter, const BaseEvent& event);
 
 }  // namespace pfdm
