@@ -82,13 +82,14 @@ fs::path case_of(const fs::path& results) {
   return {};
 }
 
-std::string command_of(const fs::path& results) {
+std::string command_of(const fs::path& results, const std::string& given) {
   const fs::path file = case_of(results);
   if (file.empty()) return {};
   const bool is_default = results.filename() == "results" && fs::exists(results.parent_path() / "case.toml");
-  const char* job = "run";
+  std::string_view job = "run";
   if (!fs::exists(results / summary_file) && fs::exists(results / "fit.json")) job = "fit";
   if (!fs::exists(results / summary_file) && fs::exists(results / "sweep.csv")) job = "sweep";
+  if (!given.empty()) job = given;
   return fmt::format("{} {} {}", called_as(), job, shell_word((is_default ? results.parent_path() : file).string()));
 }
 
@@ -168,7 +169,7 @@ BrowserPage browser_page(ReportPage report, const fs::path& results, BrowserExtr
                    .figures = std::move(extras.figures),
                    .warnings = {},
                    .origin = origin_of(results, extras.hash),
-                   .command = command_of(results),
+                   .command = command_of(results, extras.job),
                    .case_text = {},
                    .steps = std::move(extras.steps),
                    .body = std::move(extras.body),

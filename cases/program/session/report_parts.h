@@ -57,6 +57,7 @@ void remove_report(const std::filesystem::path& results);
 /// What the page in the browser has beyond that on paper.
 struct BrowserExtras {
   std::string hash{};                   ///< of the case; a fit of another one is not told of
+  std::string job{};                    ///< command that makes the results again; empty: as they look
   std::vector<std::string> headline{};  ///< sentences
   std::vector<HeadFigure> figures{};
   std::vector<std::string> steps{};  ///< as in BrowserPage, as what follows

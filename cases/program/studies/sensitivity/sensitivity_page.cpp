@@ -132,7 +132,8 @@ ReportPage sensitivity_page(const CaseSensitivity& found) {
 }
 
 void report_sensitivity(const CaseSensitivity& found, Session& session) {
-  BrowserExtras extras{.hash = found.hash};
+  BrowserExtras extras{.hash = found.hash,
+                       .job = session.sensitivity.method == "direct" ? "sensitivity --method direct" : "sensitivity"};
   const auto strongest = std::ranges::find_if(
       found.parameters, [&](const ParameterSensitivity& p) { return p.overview(found.curve).largest.has_value(); });
   if (strongest != found.parameters.end())
