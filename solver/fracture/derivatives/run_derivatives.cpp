@@ -276,7 +276,7 @@ void RunDerivatives::go_to_jump(const FractureState& last, const std::vector<dou
 // Inverse iteration in the norm of the diagonal, from the answer by the load.
 std::vector<double> RunDerivatives::find_jump(const Step& last, std::vector<Vector> Parameter::*right_side) {
   const Linearised at = linearised(last);
-  const std::vector<double> scale = at.system->scale();
+  std::vector<double> scale = at.system->scale();
   std::vector<Vector> null = load_->answer;
   for (int k = 0; k < null_iterations; ++k) {
     std::vector<Vector> b = null;

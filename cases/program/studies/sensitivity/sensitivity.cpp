@@ -78,7 +78,8 @@ void take(ForwardCurve forward, CaseSensitivity& found) {
         "the curve has {} in which its displacement grows, and needs three or more: output.curve names its patch",
         counted(static_cast<Index>(forward.curve.x.size()), "row")));
   if (forward.is_turned)
-    found.remarks.push_back("the curve moves to negative displacements: these and the forces have the other sign here");
+    found.remarks.emplace_back(
+        "the curve moves to negative displacements: these and the forces have the other sign here");
   if (forward.n_behind > 0)
     found.remarks.push_back(fmt::format("{} of the curve fell back behind an earlier displacement, and {} left out",
                                         counted(static_cast<Index>(forward.n_behind), "row"),
@@ -118,10 +119,10 @@ void add_remarks(const DirectSensitivity& direct, CaseSensitivity& found) {
     found.remarks.push_back(fmt::format("{} lie after a jump, where elasticities are approximate, by an unknown error",
                                         counted(static_cast<Index>(n), "row")));
   if (direct.may_debond)
-    found.remarks.push_back("--method direct does not look for the first debonding; --method differences does");
+    found.remarks.emplace_back("--method direct does not look for the first debonding; --method differences does");
   const auto is_peak = [](const BaseEvent& e) { return e.event.kind == EventKind::greatest_force; };
   if (std::ranges::any_of(found.events, is_peak) && shape_of_peak(direct.curve) == CurvePeak::Shape::row)
-    found.remarks.push_back(
+    found.remarks.emplace_back(
         "the greatest force is neither smooth nor a corner between enough rows: it has no direct derivative. Shorter "
         "load steps about it may show one (loading.maximum_increment)");
 }
