@@ -106,4 +106,12 @@ Vector doubled_fan_area(const std::vector<Vector>& points, std::span<const Index
   return sum;
 }
 
+std::vector<Vector> sums_by_patch(const Mesh& mesh, const std::vector<Vector>& of_boundary_faces) {
+  std::vector<Vector> sums(mesh.patches.size(), Vector::Zero());
+  for (std::size_t p = 0; p < mesh.patches.size(); ++p)
+    for (Index f = 0; f < mesh.patches[p].n_faces; ++f)
+      sums[p] += of_boundary_faces[mesh.patches[p].first_face + f - mesh.n_interior_faces()];
+  return sums;
+}
+
 }  // namespace pfdm

@@ -27,6 +27,9 @@ Vector fan_middle(const Mesh& mesh, Index face);
 /// displacement u_f + G (x - x_f) lets u_f.S + G : this through.
 Tensor face_warp(const Mesh& mesh, Index face);
 
+/// Sum over the faces of each patch of what each boundary face has, these numbered from 0, as forces [N].
+std::vector<Vector> sums_by_patch(const Mesh& mesh, const std::vector<Vector>& of_boundary_faces);
+
 /// Fills face_centre, face_area, cell_centre and cell_volume of a mesh whose tables are complete. Volumes and centroids
 /// are sums over the tetrahedra between the face triangles and the mean of the cell's face centres: exact for planar
 /// faces.

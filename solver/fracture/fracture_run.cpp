@@ -1,5 +1,6 @@
 #include "solver/fracture/fracture_run.h"
 
+#include "mesh/geometry.h"
 #include "physics/error.h"
 #include "solver/fracture/body_heat.h"
 #include "solver/fracture/combinations.h"
@@ -149,7 +150,7 @@ struct FractureRun::Parts {
     StepReport r;
     r.step = state.step;
     r.load = state.load;
-    r.reaction = sum_by_patch(state.boundary_force);
+    r.reaction = sums_by_patch(mesh, state.boundary_force);
     r.patch_displacement = staggered.momentum().balance().patch_displacements(state.displacement);
     r.energy = state.energy;
     if (model.motion.any()) r.means = box_means(mesh, unknowns, sides, state.boundary_force, state.displacement);
@@ -175,14 +176,6 @@ struct FractureRun::Parts {
       fields.strain[c] = 0.5 * (F.transpose() * F - Tensor::Identity());
       fields.stress[c] = staggered.stiffness().cauchy_stress(c, mechanics, state, unknowns.plane_normal);
     });
-  }
-
-  std::vector<Vector> sum_by_patch(const std::vector<Vector>& boundary_force) const {
-    std::vector<Vector> sums(mesh.patches.size(), Vector::Zero());
-    for (std::size_t p = 0; p < mesh.patches.size(); ++p)
-      for (Index f = 0; f < mesh.patches[p].n_faces; ++f)
-        sums[p] += boundary_force[mesh.patches[p].first_face + f - mesh.n_interior_faces()];
-    return sums;
   }
 };
 

@@ -1,5 +1,6 @@
 #include "solver/fracture/derivatives/run_derivatives.h"
 
+#include "mesh/geometry.h"
 #include "physics/error.h"
 #include "solver/fracture/equilibrium/coupled_system.h"
 #include "solver/momentum/stiffness_coupling.h"
@@ -249,9 +250,9 @@ void RunDerivatives::keep(const Step& step, const Linearised& at, const Fracture
   const auto n = static_cast<std::ptrdiff_t>(at.system->n_displacements());
   found.displacement.assign(p.answer.begin(), p.answer.begin() + n);
   for (Index c = 0; c < mesh_.n_cells(); ++c) found.damage[c] = at.system->of(p.answer, c) / at.system->root(c);
-  found.boundary_force = rest.boundary_force;
-  for (std::size_t f = 0; f < found.boundary_force.size(); ++f)
-    found.boundary_force[f] = (rest.boundary_force[f] - at.base.boundary_force[f]) / p.step;
+  std::vector<Vector> change = rest.boundary_force;
+  for (std::size_t f = 0; f < change.size(); ++f) change[f] = (change[f] - at.base.boundary_force[f]) / p.step;
+  found.reaction = sums_by_patch(mesh_, change);
   const MomentumOperator& balance = base_->staggered.balance();
   found.patch_displacement = balance.patch_displacements(moved.displacement);
   const std::vector<Vector> unmoved = balance.patch_displacements(step.state.displacement);

@@ -42,7 +42,7 @@ class RunDerivatives {
 
   /// Of the last step, by ln p at fixed load.
   struct Derivative {
-    std::vector<Vector> boundary_force;      ///< on each boundary face [N]
+    std::vector<Vector> reaction;            ///< force on each patch [N]
     std::vector<Vector> patch_displacement;  ///< area mean on each patch [m]
     std::vector<Vector> displacement;        ///< of all unknowns [m]
     CellField<double> damage;                ///< [-]

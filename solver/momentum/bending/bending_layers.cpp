@@ -127,8 +127,6 @@ class LayerLines {
   std::vector<std::array<LayerLine, 3>> lines_;
 };
 
-constexpr double least_error = 0.005, least_slenderness = 3.0;
-
 bool is_lone(const Mesh& mesh, const Unknowns& unknowns, Index cell, const std::array<Index, 2>& faces) {
   return cells_through(mesh, unknowns, cell, faces) == 1;
 }
@@ -153,7 +151,7 @@ void over_layers(const Mesh& mesh, const Unknowns& unknowns, const See& see) {
         const LayerLine &layers = lines.line(c, across), &length = lines.line(c, along);
         const double n = layers.times() * layers.n, thickness = layers.times() * layers.length;
         if (across == along || !layers.has_layers()) continue;
-        if (length.times() * length.length < least_slenderness * thickness) continue;
+        if (length.times() * length.length < BendingLayers::least_slenderness * thickness) continue;
         see(BendingCell{.cell = c,
                         .across = lines.faces(c, across),
                         .along = lines.faces(c, along),
@@ -233,7 +231,7 @@ std::vector<BendingCell> cells_with_lines(const Mesh& mesh, const Unknowns& unkn
   std::vector<BendingCell> cells;
   if (unknowns.is_axisymmetric() || (where == LinesIn::space && !unknowns.plane_normal.isZero())) return cells;
   over_layers(mesh, unknowns, [&](const BendingCell& in, const BendingLayers& at, double nu) {
-    if (std::max(at.excess(nu), at.lack()) > least_error && has_lines(mesh, unknowns, in, where)) cells.push_back(in);
+    if (at.is_wrong(nu) && has_lines(mesh, unknowns, in, where)) cells.push_back(in);
   });
   return cells;
 }
@@ -241,7 +239,7 @@ std::vector<BendingCell> cells_with_lines(const Mesh& mesh, const Unknowns& unkn
 std::vector<char> bending_cells(const Mesh& mesh, const Unknowns& unknowns) {
   std::vector<char> bends(mesh.n_cells(), 0);
   over_layers(mesh, unknowns, [&](const BendingCell& in, const BendingLayers& at, double nu) {
-    if (std::max(at.excess(nu), at.lack()) > least_error) bends[in.cell] = 1;
+    if (at.is_wrong(nu)) bends[in.cell] = 1;
   });
   return bends;
 }

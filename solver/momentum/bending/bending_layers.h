@@ -4,6 +4,7 @@
 #include "mesh/mesh.h"
 #include "solver/momentum/body/unknowns.h"
 
+#include <algorithm>
 #include <array>
 #include <optional>
 #include <vector>
@@ -12,6 +13,9 @@ namespace pfdm {
 
 /// Layers across a body at a cell, and the cell's longest edge along them.
 struct BendingLayers {
+  /// Length over thickness from which on a body is taken to bend.
+  static constexpr double least_slenderness = 3.0;
+
   double n = 0.0;          ///< layers, twice as many where the last one lies on a plane of symmetry
   double thickness = 0.0;  ///< of all of them [m]
   double length = 0.0;     ///< of the cell along the layers [m]
@@ -21,6 +25,8 @@ struct BendingLayers {
   /// (3 - 2/n)/n^2 too little.
   double excess(double nu) const { return 1.5 * (1.0 - nu) * length * length / (thickness * thickness); }
   double lack() const { return n > 1.0 ? (3.0 - 2.0 / n) / (n * n) : 1.0; }
+  /// Whether either exceeds half a per cent.
+  bool is_wrong(double nu) const { return std::max(excess(nu), lack()) > 0.005; }
   /// Their sum, less what Poisson's effect across the layers stiffens and what cells longer than the body is thick
   /// leave of the excess: x/(1 + 0.13 x^1.5) - ((3 - 2/n) - 0.6 f (2 - 3/n))/n^2, x being the excess and f = nu^2/((1 -
   /// nu)(1 - 2 nu)) at nu up to 0.45. Measured (test `bending_in_space`).

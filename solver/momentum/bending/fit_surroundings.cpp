@@ -34,6 +34,10 @@ std::vector<Index> FitSurroundings::of(Index cell) {
   std::sort(corners_.begin(), corners_.end());
   for (std::size_t i = 0; i + 1 < corners_.size(); ++i)
     if (corners_[i] == corners_[i + 1]) cells_.push_back(corners_[i]);
+  return samples(cell);
+}
+
+std::vector<Index> FitSurroundings::samples(Index cell) {
   unite(cells_);
   std::erase(cells_, cell);
   unite(nodes_);
@@ -61,11 +65,7 @@ std::vector<Index> FitSurroundings::of_prism(Index cell) {
     for (const Index f : mesh_.faces_of_cell(c))
       if (const Index node = unknowns_.node_beside(mesh_, c, f); node >= 0 && sees(cell, c, mesh_.face_centre[f]))
         nodes_.push_back(node);
-  unite(cells_);
-  std::erase(cells_, cell);
-  unite(nodes_);
-  cells_.insert(cells_.end(), nodes_.begin(), nodes_.end());
-  return cells_;
+  return samples(cell);
 }
 
 // Whether the line from the centre of a cell to a place in another one runs through no face with a node.

@@ -21,6 +21,7 @@ class FitSurroundings {
 
  private:
   std::vector<Index> of_prism(Index cell);
+  std::vector<Index> samples(Index cell);
   Index across(Index cell, Index face) const;
   Index beyond(Index cell, Index face);
   void extend(Index cell, Index neighbour, Index face);

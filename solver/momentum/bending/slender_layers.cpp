@@ -12,7 +12,6 @@
 namespace pfdm {
 namespace {
 
-constexpr double least_slenderness = 3.0;
 constexpr int n_directions = 8;  // in the plane of the layers, over half a turn
 
 // Between the centres of a prism's triangles.
@@ -63,12 +62,12 @@ class SlenderSearch {
         through.segments, [&](const LineSegment& in) { return mesh_.shape[in.cell] != CellShape::hexahedron; });
     if (other == through.segments.end()) return std::nullopt;
     const double times = through.end == BodyEnd::mirror ? 2.0 : 1.0;
-    if (least_slenderness * times * through.length > (is_mirrored_ ? 2.0 : 1.0) * size_) return std::nullopt;
+    const double least = BendingLayers::least_slenderness * times * through.length;
+    if (least > (is_mirrored_ ? 2.0 : 1.0) * size_) return std::nullopt;
     const Vector centre = mesh_.face_centre[face] + 0.5 * through.length * across;
     std::optional<SlenderLayers> worst;
     for (const Vector& along : directions(across)) {
-      if (!is_long(through.at(0.5 * through.length).cell, centre, along, least_slenderness * times * through.length))
-        continue;
+      if (!is_long(through.at(0.5 * through.length).cell, centre, along, least)) continue;
       const SlenderCells of = kind_of(mesh_, other->cell, across, along);
       const BendingLayers layers = layers_of(of, through, across, along, times);
       if (worst && layers.length <= worst->layers.length) continue;
@@ -200,7 +199,6 @@ bool is_slender_body(const Mesh& mesh, const Unknowns& unknowns) {
 
 // Cells between the lines, which these miss, follow two neighbours.
 CellField<Vector> bending_prisms(const Mesh& mesh, const Unknowns& unknowns) {
-  constexpr double least_error = 0.005;
   CellField<Vector> along(mesh.n_cells(), Vector::Zero());
   if (unknowns.plane_normal.isZero()) return along;
   const auto is_fit = [&](Index c) {
@@ -209,7 +207,7 @@ CellField<Vector> bending_prisms(const Mesh& mesh, const Unknowns& unknowns) {
   bool any = false;
   for (const SlenderLayers& at : slender_layers(mesh, unknowns)) {
     const double nu = unknowns.sound[unknowns.zone[at.cell]].poisson_ratio();
-    if (std::max(at.layers.excess(nu), at.layers.lack()) <= least_error) continue;
+    if (!at.layers.is_wrong(nu)) continue;
     for (const Index c : at.through)
       if (is_fit(c)) along[c] = at.along;
     any = true;

@@ -43,7 +43,6 @@ std::pair<FractureCase, double> shifted_case(const FractureProgram& program, con
 
 /// The curve's force and displacement, and how a parameter moves them.
 struct CurveOfRun {
-  const Mesh& mesh;
   Index patch;
   int component;
 
@@ -52,12 +51,10 @@ struct CurveOfRun {
   bool is_after_jump = false;
 
   RowDerivative row(const RunDerivatives::Derivative& by) const {
-    RowDerivative found{.displacement = by.patch_displacement[as_size(patch)][component],
+    RowDerivative found{.force = by.reaction[as_size(patch)][component],
+                        .displacement = by.patch_displacement[as_size(patch)][component],
                         .unsolved = by.unsolved,
                         .is_after_jump = is_after_jump};
-    const Patch& of = mesh.patches[as_size(patch)];
-    for (Index f = 0; f < of.n_faces; ++f)
-      found.force += by.boundary_force[as_size(of.first_face + f - mesh.n_interior_faces())][component];
     if (sign < 0.0) found.displacement = -found.displacement, found.force = -found.force;
     return found;
   }
@@ -89,9 +86,7 @@ StepReport step_of(FractureRun& run, FractureState& state, Log& log) {
 
 CurveOfRun curve_of(const FractureProgram& program, const Mesh& mesh) {
   const CurveSettings& curve = program.fracture.output.curve;
-  Index patch = 0;
-  while (mesh.patches[as_size(patch)].name != curve.patch) ++patch;
-  return {.mesh = mesh, .patch = patch, .component = curve.component};
+  return {.patch = mesh.patch_index(curve.patch), .component = curve.component};
 }
 
 /// Adds the parameters that can be; says of the others why not.

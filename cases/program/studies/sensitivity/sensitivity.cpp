@@ -131,8 +131,7 @@ void directly(const SensitivityJob& job, const std::vector<CaseParameter>& param
               const std::function<void()>& begin, CaseSensitivity& found) {
   found.doubt =
       "the state lies behind a jump, or next to one, where the equations of the derivatives are singular. Of a jump's "
-      "displacement "
-      "shorter load steps before it tell more (loading.maximum_increment, loading.finest_increment)";
+      "displacement shorter load steps before it tell more (loading.maximum_increment, loading.finest_increment)";
   const DirectSensitivity direct = job.direct(parameters, session);  // which may refuse the case
   begin();
   take({.curve = direct.curve, .is_turned = direct.is_turned}, found);
