@@ -65,30 +65,11 @@ std::optional<std::string> of_relaxation(const Mesh& mesh, const FractureModel& 
       mesh.region_names[region], most);
 }
 
-// Warning on closed cracks of relaxing cells with a pressure.
-std::optional<std::string> of_closed_cracks(const Mesh& mesh, const FractureModel& model) {
-  if (model.is_plane_stress()) return std::nullopt;
-  for (std::size_t r = 0; r < model.regions.size(); ++r) {
-    const RegionModel& region = model.regions[r];
-    if (!region.damageable || !region.material || region.material->is_finite_strain()) continue;
-    if (!relaxes_with_pressure(*region.material)) continue;
-    if (!(model.split_of(region).secant(region.elasticity, 0.0, 1.0).bulk_modulus() > 0.0)) continue;
-    return fmt::format(
-        "region \"{}\": closed cracks in a material that relaxes and whose nu exceeds 0.4 are within some 15 % (a "
-        "block "
-        "with a crack one cell wide had 13 % less force than the elastic one at nu = 0.4997, 8 % at 0.46); compare a "
-        "finer "
-        "mesh and shorter steps, or where no crack closes fracture.split = \"none\"",
-        mesh.region_names[r]);
-  }
-  return std::nullopt;
-}
-
 }  // namespace
 
 std::vector<std::string> stiffness_warnings(const Mesh& mesh, const FractureModel& model) {
   std::vector<std::string> warnings;
-  for (const auto& warning : {of_volume(mesh, model), of_relaxation(mesh, model), of_closed_cracks(mesh, model)})
+  for (const auto& warning : {of_volume(mesh, model), of_relaxation(mesh, model)})
     if (warning) warnings.push_back(*warning);
   return warnings;
 }

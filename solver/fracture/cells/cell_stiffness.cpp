@@ -262,7 +262,6 @@ double CellStiffness::follow(const CellMechanics& mechanics, FractureState& stat
 // would open and close for ever.
 Tensor CellStiffness::closing_strain(Index cell, const CellMechanics& mechanics, const FractureState& state) const {
   const Tensor strain = mechanics.elastic_strain(cell);
-  if (materials_.has(cell)) return strain;
   const double g = factor(cell, seen(cell, state));
   const double K = split(cell).secant(elasticity(cell), g, state.closure[cell]).bulk_modulus();
   return deviator(strain) + mechanics.stress[cell].trace() / (9.0 * K) * Tensor::Identity();

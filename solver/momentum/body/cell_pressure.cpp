@@ -69,22 +69,20 @@ void CellPressure::take_over(CellField<IsotropicElasticity>& moduli, const CellF
     const Index c = unknowns_.pressure_cells[k];
     const IsotropicElasticity& rested = unknowns_.pressure_laws[k].elasticity;
     double kept = ratio_[c] * rested.mu / rested.lambda * moduli[c].lambda;
-    if (relaxes.size() > 0 && relaxes[c] != 0) {
-      const double closed = moduli[c].bulk_modulus() / sound[c].bulk_modulus() - g[c];
-      kept = (ratio_[c] + 2.0 / 3.0) * (g[c] * sound[c].mu + closed * rested.mu) - 2.0 / 3.0 * moduli[c].mu;
-    }
+    if (relaxes.size() > 0 && relaxes[c] != 0)
+      kept = ratio_[c] * sound[c].mu * moduli[c].bulk_modulus() / sound[c].bulk_modulus();
     modulus_[c] = moduli[c].lambda - kept;
     moduli[c].lambda = kept;
   }
   weigh(g);
 }
 
-void CellPressure::bear_closed_cracks(CellField<IsotropicElasticity>& of_stress, const CellField<char>& relaxes) {
+void CellPressure::bear_closed_cracks(CellField<IsotropicElasticity>& of_stress) {
   constexpr double rounding = 1e-9;
   for (const Index c : unknowns_.pressure_cells) {
     IsotropicElasticity& own = of_stress[c];
     const double open = ratio_[c] * own.mu;
-    if ((relaxes.size() > 0 && relaxes[c] != 0) || own.lambda <= (1.0 + rounding) * open) continue;
+    if (own.lambda <= (1.0 + rounding) * open) continue;
     modulus_[c] += own.lambda - open;
     own.lambda = open;
   }

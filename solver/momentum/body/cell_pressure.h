@@ -46,15 +46,14 @@ class CellPressure {
   /// Reduces lambda to lambda_s in the moduli of the cells with a pressure, which carries the rest. In a damaged cell
   /// both are the same fractions of lambda as in the undamaged one. g are the stiffness factors. `relaxes`: cells that
   /// relax, empty: none; `sound`: their undamaged moduli that a change of strain meets in the step [Pa]. Their K_s has
-  /// its ratio to mu in the undamaged material: g times that relaxes as mu does. What closed cracks keep of K keeps the
-  /// share of the relaxed material.
+  /// its ratio to mu in the undamaged material and relaxes as mu does: g times that, or the share of K that a closed
+  /// crack keeps.
   void take_over(CellField<IsotropicElasticity>& moduli, const CellField<double>& g,
                  const CellField<IsotropicElasticity>& sound, const CellField<char>& relaxes);
   /// Reduces lambda_s in the moduli of the cells' own stress where a crack is closed, to 2.5 of its shear modulus
   /// there, and leaves the rest to the pressure too: after take_over(). A closed crack has no shear stiffness that
-  /// would make the cell's divergence agree with that of the fluxes. `relaxes` as above; these cells are left as they
-  /// are.
-  void bear_closed_cracks(CellField<IsotropicElasticity>& of_stress, const CellField<char>& relaxes);
+  /// would make the cell's divergence agree with that of the fluxes.
+  void bear_closed_cracks(CellField<IsotropicElasticity>& of_stress);
   /// The part of take_over() that does not concern the moduli: at finite strain, whose laws know their own.
   void weigh(const CellField<double>& g);
   /// Pressures that are zero, for read().

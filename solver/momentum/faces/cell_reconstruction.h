@@ -32,8 +32,8 @@ class CellReconstruction {
                  const CellField<IsotropicElasticity>& sound, const CellField<char>& relaxes) {
     pressure_.take_over(moduli, g, sound, relaxes);
   }
-  void bear_closed_cracks(CellField<IsotropicElasticity>& of_stress, const CellField<char>& relaxes) {
-    pressure_.bear_closed_cracks(of_stress, relaxes);
+  void bear_closed_cracks(CellField<IsotropicElasticity>& of_stress) {
+    pressure_.bear_closed_cracks(of_stress);
   }
 
   /// Gradients of one ring [-], with the hoop strain about an axis.

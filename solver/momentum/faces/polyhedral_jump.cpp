@@ -36,7 +36,8 @@ PolyhedralJump::PolyhedralJump(const FaceSkeleton& skeleton, const CellField<dou
     : skeleton_(skeleton),
       share_(shares),
       greatest_slip_(skeleton.mesh.n_cells(), 0.0),
-      liquidity_(skeleton.mesh.n_cells(), 0.0) {
+      liquidity_(skeleton.mesh.n_cells(), 0.0),
+      slip_(skeleton.mesh.n_cells(), 0.0) {
   for (Index c = 0; c < skeleton.mesh.n_cells(); ++c)
     if (skeleton.mesh.shape[c] == CellShape::polyhedron) greatest_slip_[c] = slip_share;
   for (const Index c : skeleton.unknowns.pressure_cells) greatest_slip_[c] = slip_share_with_pressure;
@@ -46,12 +47,18 @@ PolyhedralJump::PolyhedralJump(const FaceSkeleton& skeleton, const CellField<dou
 void PolyhedralJump::renew(const CellField<IsotropicElasticity>& moduli,
                            const CellField<IsotropicElasticity>& undamaged) {
   const Unknowns& unknowns = skeleton_.unknowns;
+  const auto sound_of = [&](Index c) { return undamaged.size() > 0 ? undamaged[c] : unknowns.sound[unknowns.zone[c]]; };
   parallel_for(skeleton_.mesh.n_cells(), [&](Index c) {
     if (greatest_slip_[c] == 0.0) return;
-    const IsotropicElasticity& sound = undamaged.size() > 0 ? undamaged[c] : unknowns.sound[unknowns.zone[c]];
+    const IsotropicElasticity sound = sound_of(c);
     const double stiffer = moduli[c].bulk_modulus() * sound.mu / (sound.bulk_modulus() * moduli[c].mu);
     liquidity_[c] = std::max(0.0, 1.0 - 1.0 / stiffer);
+    slip_[c] = greatest_slip_[c] * liquidity_[c];
   });
+  for (std::size_t k = 0; k < unknowns.pressure_cells.size(); ++k) {
+    const Index c = unknowns.pressure_cells[k];
+    slip_[c] *= unknowns.pressure_laws[k].elasticity.mu / sound_of(c).mu;
+  }
 }
 
 double PolyhedralJump::along_normal(Index P, Index N, const CellField<IsotropicElasticity>& moduli, double h_P,
@@ -65,7 +72,7 @@ double PolyhedralJump::along_normal(Index P, Index N, const CellField<IsotropicE
 }
 
 double PolyhedralJump::along_face(Index P, Index N, double c_n, double c_t) const {
-  return c_t + std::min(greatest_slip_[P] * liquidity_[P], greatest_slip_[N] * liquidity_[N]) * c_n;
+  return c_t + std::min(slip_[P], slip_[N]) * c_n;
 }
 
 // In bending, the shear strain on the faces across a plate and on those along it must agree. With the jump part alpha

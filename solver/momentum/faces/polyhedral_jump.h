@@ -14,7 +14,8 @@
 // along the face between two of them in the jump term, which vanishes for a slip that is linear over the cells.
 //
 // Closed cracks in cells of any shape with a pressure have the same fault, and a pressure that varies along the crack
-// meets no stiffness there. Between two of them it is c_t + 0.2 c_n, c_n being that of the moderate lambda_s.
+// meets no stiffness there. Between two of them it is c_t + 0.2 c_n, c_n being that of the moderate lambda_s. In relaxing
+// cells it is the c_n of the relaxed material: a slip has no history.
 
 #include "solver/momentum/faces/face_skeleton.h"
 
@@ -50,6 +51,7 @@ class PolyhedralJump {
   const CellField<double>& share_;
   CellField<double> greatest_slip_;  // of a closed crack, over c along the normal; zero: in other cells
   CellField<double> liquidity_;      // 0 to 1: how closed (without shear stiffness) the crack of such a cell is
+  CellField<double> slip_;           // at present, over c along the normal
 };
 
 }  // namespace pfdm

@@ -60,7 +60,7 @@ HistoryTractions::GapStiffness HistoryTractions::gap_stiffness(Index c, const Hi
   const IsotropicElasticity& sound = history.sound[c];
   const double share = jump_modulus(c) / moduli()[c].constrained_modulus();
   if (is_plane_stress()) return {share * plane_stress(sound).constrained_modulus() / sound.mu, 0.0};
-  if (cells_.pressure().modulus(c) > 0.0) return {share * (2.0 + cells_.pressure().moderate_ratio(c)), 0.0};
+  if (cells_.pressure().modulus(c) > 0.0) return {jump_modulus(c) / moduli()[c].mu, 0.0};
   return {share * 4.0 / 3.0, share};
 }
 

@@ -50,7 +50,7 @@ void IsotropicTractions::set_moduli(const CellField<IsotropicElasticity>& moduli
   condense();
   cells_.take_over(moduli_, g, sound, relaxes);
   of_stress_ = moduli_;
-  cells_.bear_closed_cracks(of_stress_, relaxes);
+  cells_.bear_closed_cracks(of_stress_);
   find_initial_stress();
 }
 

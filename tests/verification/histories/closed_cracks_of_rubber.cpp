@@ -1,0 +1,109 @@
+// Closed cracks in nearly incompressible bodies that relax. The split "volumetric_deviatoric" leaves them their bulk
+// modulus and no shear stiffness. A body that is pressed, and held, ends as the elastic one of the relaxed moduli.
+
+#include "mesh/dual.h"
+#include "tests/verification/finite.h"
+#include "tests/verification/histories/held_discs.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+namespace pfdm::verification::this_file {
+namespace {
+
+using namespace discs;
+
+constexpr double branch = 20.0;  // shear modulus of the branch over the relaxed one
+
+struct Crack {
+  const char* name;
+  double slope, damage, half_length;
+};
+
+// A block between bonded plates, pressed by 1 % and sheared by 0.3 %. Its crack is one cell wide, and stays as it is.
+FractureModel pressed_block(const Mesh& mesh, const RegionModel& region, const Crack& crack,
+                            const std::function<double(double)>& grown) {
+  FractureModel model = elastic_model({region.elasticity},
+                                      {symmetry_on("zmin"), symmetry_on("zmax"),
+                                       displacement_on("ymin", [](const Vector&) -> Vector { return Vector::Zero(); }),
+                                       moved("ymax", {true, true, true}, [grown](const Vector&, double t) -> Vector {
+                                         return grown(t) * Vector(0.003, -0.01, 0.0);
+                                       })});
+  model.regions[0].material = region.material;
+  model.regions[0].damageable = true;
+  model.regions[0].Gc = 1e12;
+  model.regions[0].ell = 1e-3;
+  model.initial_damage = CellField<double>(mesh.n_cells(), 0.0);
+  for (Index c = 0; c < mesh.n_cells(); ++c) {
+    const Vector& x = mesh.cell_centre[c];
+    const double distance = x.y() - 0.52 - crack.slope * (x.x() - 0.5);
+    if (std::abs(distance) < 0.05 && std::abs(x.x() - 0.5) < crack.half_length) model.initial_damage[c] = crack.damage;
+  }
+  return model;
+}
+
+struct Block {
+  const char* cells;
+  Mesh mesh;
+};
+
+std::vector<Block> blocks() {
+  const auto flat = [](const Vector& s) -> Vector { return {s[0], s[1], 0.1 * s[2]}; };
+  const auto thick = [](const Vector& s) -> Vector { return {s[0], s[1], 0.3 * s[2]}; };
+  return {{.cells = "hexahedra", .mesh = mapped_box({20, 10, 1}, flat)},
+          {.cells = "prisms", .mesh = mapped_box({12, 10, 1}, flat, BoxCells::prisms)},
+          {.cells = "tetrahedra", .mesh = mapped_box({6, 10, 3}, thick, BoxCells::tetrahedra)},
+          {.cells = "polyhedra", .mesh = barycentric_dual(mapped_box({6, 10, 3}, thick, BoxCells::tetrahedra))}};
+}
+
+struct Pressed {
+  Vector force = Vector::Zero();
+  double closed = 0.0;  // number of cells whose crack is closed
+};
+
+Pressed press(const Mesh& mesh, const RegionModel& region, const EnergySplit& split, const Crack& crack,
+              const std::function<double(double)>& grown, const LoadingSettings& loading) {
+  FractureModel model = pressed_block(mesh, region, crack, grown);
+  model.split = split;
+  FractureRun run(mesh, model, closely, loading);
+  Pressed result;
+  const FractureState last = run_to_end(run, [&](const FractureState&, const StepReport& report) {
+    result.force = report.reaction[mesh.patch_index("ymax")] / (1e-3 * mu);
+  });
+  for (Index c = 0; c < mesh.n_cells(); ++c)
+    if (last.damage[c] > 0.4) result.closed += last.closure[c];
+  return result;
+}
+
+class ClosedCracksOfRubber : public ::testing::TestWithParam<const char*> {};
+
+TEST_P(ClosedCracksOfRubber, RelaxToTheElasticOnes) {
+  const std::string name = GetParam();
+  const EnergySplit split = name == "star_convex" ? EnergySplit(split_law(name), {1.0}) : energy_split(name);
+  for (const Block& block : blocks())
+    for (const double poisson : {0.46, 0.4997})
+      for (const Crack& crack :
+           {Crack{"straight", 0.0, 0.99, 0.3}, Crack{"straight", 0.0, 0.5, 0.5}, Crack{"oblique", 0.4, 0.99, 0.35}}) {
+        const IsotropicElasticity stiff = from_young_poisson(2.0 * (1.0 + branch) * mu * (1.0 + poisson), poisson);
+        const IsotropicElasticity soft{.lambda = stiff.bulk_modulus() - 2.0 * mu / 3.0, .mu = mu};
+        const Pressed due = press(block.mesh, relaxing_region({.relaxed = soft, .shear = {{1e-9 * mu, 1.0}}}), split,
+                                  crack, [](double t) { return std::min(4.0 * t, 1.0); },
+                                  {.initial_increment = 0.25, .maximum_increment = 0.25, .duration = 1.0, .stops = {}});
+        const Pressed held_for_long =
+            press(block.mesh, relaxing_region({.relaxed = soft, .shear = {{branch * mu, 1.0}}}), split, crack,
+                  pulled_at_once, held(200.0, 10.0));
+        report_row(fmt::format("{} {}, {} crack, d {}, nu {}", name, block.cells, crack.name, crack.damage, poisson),
+                   {{"across", held_for_long.force.y()},
+                    {"due", due.force.y()},
+                    {"along", held_for_long.force.x()},
+                    {"due", due.force.x()},
+                    {"closed", held_for_long.closed},
+                    {"closed", due.closed}});
+        EXPECT_LE((held_for_long.force - due.force).norm(), 1e-3 * due.force.norm());
+      }
+}
+
+INSTANTIATE_TEST_SUITE_P(Splits, ClosedCracksOfRubber, ::testing::Values("volumetric_deviatoric", "star_convex"));
+
+}  // namespace
+}  // namespace pfdm::verification::this_file
