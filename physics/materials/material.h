@@ -21,7 +21,7 @@ struct PronyLaw;
 struct MaterialStep {
   Tensor from;                      ///< H at the start of the step [-]
   Tensor to;                        ///< H at its end [-]
-  double duration = 0.0;            ///< of the step [s]
+  double duration = 0.0;            ///< of the step [s], over a_T of materials whose times shift
   std::span<const double> history;  ///< at its start
 };
 

@@ -13,9 +13,11 @@
 // it. A term beta exp(-alpha t) of a relaxation kernel is a branch with mu_i = beta and tau_i = 1/alpha.
 
 #include "physics/materials/material.h"
+#include "physics/materials/temperature_shift.h"
 #include "physics/prony_decay.h"
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace pfdm {
@@ -36,6 +38,8 @@ struct PronyLaw {
   IsotropicElasticity relaxed;  ///< at rest for ever [Pa]
   std::vector<PronyBranch> shear{}, bulk{};
   PronyDrive drive = PronyDrive::equilibrium;
+  /// Of the times of all branches, which are those at its reference; none: they do not depend on the temperature.
+  std::optional<TemperatureShift> shift{};
 };
 
 /// Moduli [Pa] that a change of strain meets in a step of this duration [s].

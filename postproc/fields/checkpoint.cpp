@@ -18,7 +18,7 @@ namespace pfdm {
 namespace {
 
 constexpr std::string_view magic = "PFDMCKPT";
-constexpr std::uint32_t format_version = 14;
+constexpr std::uint32_t format_version = 15;
 constexpr std::size_t size_position = magic.size() + sizeof(format_version);
 constexpr std::size_t header_size = size_position + sizeof(std::uint64_t);
 constexpr std::size_t checksum_size = sizeof(std::uint64_t);
@@ -102,9 +102,10 @@ void archive_state(Archive& archive, State& state) {
   each(step, load, increment, displacement, damage, driving_energy, closure, histories.first, histories.values,
        interfaces, boundary_force);
   for (const EnergyEntry& entry : energy_entries) archive(energy.*entry.value);
-  auto& [rise, made, cycle, transmitted, cycle_transmittance, cycle_change, account, duration] = heat;
+  auto& [rise, made, cycle, transmitted, cycle_transmittance, cycle_change, account, duration, elapsed, stood_for,
+         stretch, felt] = heat;
   each(rise, made, cycle, transmitted, cycle_transmittance, cycle_change, account.made, account.stored, account.lost,
-       duration);
+       duration, elapsed, stood_for, stretch, felt);
   auto& [accumulated, active, spent, cycle_start, cycle_growth, computed_cycles, whole_cycles, jumped_cycles] = fatigue;
   each(accumulated, active, spent, cycle_start, cycle_growth, computed_cycles, whole_cycles, jumped_cycles);
 }

@@ -3,8 +3,10 @@
 #include "physics/error.h"
 #include "solver/parallel.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <utility>
 
 namespace pfdm {
@@ -41,7 +43,11 @@ HeatState BodyHeat::start(double duration) const {
           .cycle = {},
           .transmitted = std::vector<double>(n_faces, 0.0),
           .cycle_transmittance = {},
-          .duration = duration};
+          .duration = duration,
+          .elapsed = 0.0,
+          .stood_for = {},
+          .stretch = 0.0,
+          .felt = {}};
 }
 
 std::vector<double> BodyHeat::transmittance(const std::vector<char>& parted) const {
@@ -63,10 +69,57 @@ void BodyHeat::advance(const Staggered& staggered, const FractureState& from, do
   });
   equation_->add_interfaces(staggered.faces().heat(from.interfaces, to.interfaces, model_.heat->debonding_share), made);
   equation_->step(duration, made, to.heat.rise, to.heat.account);
+  to.heat.elapsed += duration;
   parallel_for(mesh_.n_cells(), [&](Index c) { to.heat.made[c] += made[c]; });
   for (std::size_t k = 0; k < transmittance.size(); ++k) to.heat.transmitted[k] += duration * transmittance[k];
-  if (to.load >= end_of_cycle(from.load) - cycle_rounding * model_.heat->cycle)
-    end_cycle(duration / (to.load - from.load) * model_.heat->cycle, to.heat);
+  if (to.load < end_of_cycle(from.load) - cycle_rounding * model_.heat->cycle) return;
+  end_cycle(duration / (to.load - from.load) * model_.heat->cycle, to.heat);
+  if (follows_long_time(*model_.heat) && repeats(to.heat)) warm_on(staggered.temperature(), to.load, to.heat);
+}
+
+// A cycle stands for a time in which the moduli change by a small share; steps that would change them by much more are
+// halved. Nor is it much longer than the last one, after which the heat of a cycle had changed by that share.
+void BodyHeat::warm_on(const CellTemperature& temperature, double load, HeatState& heat) {
+  constexpr double most = 1.5, least_step = 1e-9;
+  const HeatModel& by = *model_.heat;
+  const CellField<double> power = mean_power(heat);
+  equation_->set_transmittance(heat.cycle_transmittance);
+  const double longest = longest_stretch(heat), end = std::min(heat.elapsed + longest, by.time);
+  const double begin = heat.elapsed;
+  double dt = std::min(by.time / static_cast<double>(by.time_steps), longest);
+  for (double change = 0.0; change < by.changes_within && heat.elapsed < end;) {
+    HeatState next = heat;
+    const bool is_last = heat.elapsed + dt >= end * (1.0 - 1e-12);
+    const double step = is_last ? end - heat.elapsed : dt;
+    CellField<double> given = power;
+    for (double& q : given) q *= step;
+    equation_->step(step, given, next.rise, next.account);
+    next.elapsed = is_last ? end : heat.elapsed + step;
+    change =
+        temperature.change_of_moduli(heat.felt, next.rise, load, 2.0 * std::numbers::pi / (by.cycle * heat.duration));
+    if (change > most * by.changes_within && step > least_step * by.time)
+      dt = 0.5 * step, change = 0.0;
+    else
+      heat = std::move(next);
+  }
+  heat.stretch = heat.elapsed - begin;
+  heat.stood_for = heat.cycle;
+  heat.cycle_change = std::numeric_limits<double>::infinity();
+}
+
+double BodyHeat::longest_stretch(const HeatState& heat) const {
+  constexpr double most_growth = 5.0, least_growth = 0.2;
+  const HeatModel& by = *model_.heat;
+  if (heat.stood_for.size() == 0) return by.time / static_cast<double>(by.time_steps);
+  const double change = relative_change(heat.stood_for, heat.cycle);
+  return heat.stretch * std::clamp(by.changes_within / change, least_growth, most_growth);
+}
+
+// Summed over the cells, over the whole heat of now.
+double BodyHeat::relative_change(const CellField<double>& before, const CellField<double>& now) const {
+  const auto sum = [&](const auto& of_cell) { return parallel_sum(mesh_.n_cells(), of_cell); };
+  const double change = sum([&](Index c) { return std::abs(now[c] - before[c]); });
+  return change > 0.0 ? change / sum([&](Index c) { return std::abs(now[c]); }) : 0.0;
 }
 
 double BodyHeat::end_of_cycle(double load) const {
@@ -76,33 +129,36 @@ double BodyHeat::end_of_cycle(double load) const {
 
 // `duration`: of a cycle [s].
 void BodyHeat::end_cycle(double duration, HeatState& heat) const {
-  if (heat.cycle.size() > 0) {
-    const auto sum = [&](const auto& of_cell) { return parallel_sum(mesh_.n_cells(), of_cell); };
-    const double change = sum([&](Index c) { return std::abs(heat.made[c] - heat.cycle[c]); });
-    const double whole = sum([&](Index c) { return std::abs(heat.made[c]); });
-    heat.cycle_change = change > 0.0 ? change / whole : 0.0;
-  }
+  if (heat.cycle.size() > 0) heat.cycle_change = relative_change(heat.cycle, heat.made);
   heat.cycle = std::exchange(heat.made, CellField<double>(mesh_.n_cells(), 0.0));
   heat.cycle_transmittance = std::exchange(heat.transmitted, std::vector<double>(heat.transmitted.size(), 0.0));
   for (double& of_face : heat.cycle_transmittance) of_face /= duration;
 }
 
 HeatReport BodyHeat::report(const HeatState& heat) const {
-  return {.figures = equation_->figures(heat.rise), .account = heat.account, .cycle_change = heat.cycle_change};
+  return {.figures = equation_->figures(heat.rise),
+          .account = heat.account,
+          .cycle_change = heat.cycle_change,
+          .elapsed = heat.elapsed};
 }
 
-bool BodyHeat::repeats(const HeatState& heat) const {
-  return any() && model_.heat->cycle > 0.0 && heat.cycle_change <= model_.heat->repeats_within;
+bool BodyHeat::is_complete(const HeatState& heat) const {
+  if (!any() || !(model_.heat->cycle > 0.0)) return false;
+  return follows_long_time(*model_.heat) ? heat.elapsed >= model_.heat->time : repeats(heat);
+}
+
+CellField<double> BodyHeat::mean_power(const HeatState& heat) const {
+  CellField<double> power = heat.cycle;
+  for (double& q : power) q /= model_.heat->cycle * heat.duration;
+  return power;
 }
 
 std::vector<HeatRow> BodyHeat::warm_by_cycles(const HeatState& heat, double time, Index n, CellField<double>& rise) {
   if (!any() || heat.cycle.size() == 0)
     throw ComputationError("heat: there is no whole cycle whose heat could warm the body");
-  CellField<double> power = heat.cycle;
-  for (double& q : power) q /= model_.heat->cycle * heat.duration;
   equation_->set_transmittance(heat.cycle_transmittance);
   rise = CellField<double>(mesh_.n_cells(), 0.0);
-  return equation_->under_steady_source(power, time, n, rise);
+  return equation_->under_steady_source(mean_power(heat), time, n, rise);
 }
 
 void BodyHeat::show(const HeatState& heat, std::vector<OutputHistory>& fields) const {

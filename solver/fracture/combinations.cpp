@@ -3,6 +3,7 @@
 #include "physics/quantity_text.h"
 #include "solver/fracture/damage/fatigue_cells.h"
 #include "solver/fracture/finite_combinations.h"
+#include "solver/fracture/heat_combinations.h"
 #include "solver/fracture/model/held_interfaces.h"
 
 #include "physics/elasticity/anisotropy.h"
@@ -210,26 +211,6 @@ void require_loads(const Mesh& mesh, const FractureModel& m, const Unknowns& unk
   if (m.has_eigenstrain()) require_eigenstrain(mesh, m, unknowns, loading);
 }
 
-// Time goes on, with a step's heat in it, and each cell conducts.
-void require_heat(const Mesh& mesh, const FractureModel& m, const LoadingSettings& loading) {
-  if (m.is_finite_strain()) throw InputError("heat ([heat]) cannot be combined with materials of finite strain");
-  if (m.motion.any()) throw InputError("heat ([heat]) cannot be combined with a box that follows a mean strain");
-  if (loading.controls_dissipation())
-    throw InputError(
-        "heat ([heat]) cannot be combined with dissipation control (loading.maximum_dissipation): the load may "
-        "decrease, time cannot");
-  if (!(loading.duration > 0.0))
-    throw InputError("heat ([heat]) requires loading.duration, the time in which t grows by 1, as in \"1 s\"");
-  for (Index c = 0; c < mesh.n_cells(); ++c) {
-    const RegionModel& region = m.in_cell(mesh, c);
-    if (!(region.conductivity > 0.0 && region.specific_heat > 0.0 && region.density > 0.0))
-      throw InputError(fmt::format(
-          "heat ([heat]) requires conductivity, specific_heat and density of each material; region \"{}\" has {} "
-          "W/(m K), {} J/(kg K) and {} kg/m^3",
-          mesh.region_names[mesh.region[c]], region.conductivity, region.specific_heat, region.density));
-  }
-}
-
 }  // namespace
 
 std::string what_excludes_mean_damage(const Mesh& mesh, const FractureModel& m) {
@@ -287,6 +268,7 @@ void require_combination(const Mesh& mesh, const FractureModel& model, const Unk
   require_loads(mesh, model, unknowns, loading);
   if (model.is_anisotropic()) require_anisotropy(mesh, model, unknowns);
   if (model.heat) require_heat(mesh, model, loading);
+  require_temperature(mesh, model, unknowns);
   require_fatigue(mesh, model, loading);
   if (loading.controls_dissipation()) require_path(mesh, model, unknowns, loading);
 }

@@ -110,6 +110,7 @@ struct FractureRun::Parts {
     trial.state.step = state.step + 1;
     trial.state.load = state.load + planned > stop - load_rounding ? stop : state.load + planned;
     trial.increment = trial.state.load - state.load;
+    heat.begin(trial.state.heat);
     if (state.load > 0.0 && is_proportional() && !follows_faces())
       for (Vector& u : trial.state.displacement) u *= trial.state.load / state.load;
     trial.outcome = staggered.solve_step(state, trial.state, step_limits(loading, trial.increment, planned), watch);
@@ -205,7 +206,7 @@ FractureState FractureRun::initial_state() const {
 }
 
 bool FractureRun::is_complete(const FractureState& state) const {
-  return state.load >= parts_->loading.end - load_rounding || parts_->heat.repeats(state.heat);
+  return state.load >= parts_->loading.end - load_rounding || parts_->heat.is_complete(state.heat);
 }
 
 StepReport FractureRun::report_of(const FractureState& start) {

@@ -28,7 +28,8 @@ class FractureRun {
   ~FractureRun();
 
   FractureState initial_state() const;
-  /// Whether the load has reached its end, or the heat of its cycles repeats.
+  /// Whether the load has reached its end, or the heat of its cycles repeats; with rises that act on the
+  /// body and a long time of heat, when that has gone by.
   bool is_complete(const FractureState& state) const;
   /// Advances the state by one accepted step; increments are cut back until one is accepted. Throws ComputationError,
   /// with the state as it was, when the smallest does not converge. `watch` sees every iteration, also of increments

@@ -26,6 +26,7 @@ Staggered::Staggered(const Mesh& mesh, const FractureModel& model, const Unknown
       settings_(settings),
       momentum_(mesh, unknowns, settings.linear),
       stiffness_(mesh, model),
+      temperature_(mesh, model),
       faces_(mesh, model, unknowns),
       damage_(mesh, model, unknowns.plane_normal),
       fatigue_(mesh, model),
@@ -38,7 +39,7 @@ Staggered::Staggered(const Mesh& mesh, const FractureModel& model, const Unknown
 
 StepOutcome Staggered::solve_step(const FractureState& start, FractureState& state, const StepLimits& limits,
                                   const IterationWatch& watch) {
-  stiffness_.start_step(limits.duration);
+  stiffness_.start_step(limits.duration, temperature_.factors(start, state.load));
   faces_.start_step(limits.duration);
   telling_ = {.watch = watch, .last = {.step = state.step, .load = state.load}, .after = telling_.after};
   momentum_.start_afresh();  // as a restarted run does

@@ -3,6 +3,7 @@
 // the damage nor the energy changes (Bourdin, Francfort, Marigo, J. Mech. Phys. Solids 48 (2000) 797).
 
 #include "solver/fracture/cells/cell_stiffness.h"
+#include "solver/fracture/cells/cell_temperature.h"
 #include "solver/fracture/cells/strength_drive.h"
 #include "solver/fracture/damage/damage_equation.h"
 #include "solver/fracture/damage/fatigue_cells.h"
@@ -83,6 +84,7 @@ class Staggered {
   const DamageEquation& damage_equation() const { return damage_; }
   CellStiffness& stiffness() { return stiffness_; }
   const CellStiffness& stiffness() const { return stiffness_; }
+  const CellTemperature& temperature() const { return temperature_; }
   const CohesiveFaces& faces() const { return faces_; }
   const FatigueCells& fatigue() const { return fatigue_; }
   /// Jumps over so many cycles of the load, with what that dissipates.
@@ -166,6 +168,7 @@ class Staggered {
   StaggeredSettings settings_;
   MomentumSolver momentum_;
   CellStiffness stiffness_;
+  CellTemperature temperature_;
   CohesiveFaces faces_;
   DamageEquation damage_;
   FatigueCells fatigue_;

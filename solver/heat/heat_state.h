@@ -26,7 +26,11 @@ struct HeatState {
   double cycle_change =
       std::numeric_limits<double>::infinity();  ///< of the cycles' heat from the last but one, relative
   HeatBalance account{};
-  double duration = 0.0;  ///< of the load parameter's 1, by which these times were made [s]
+  double duration = 0.0;        ///< of the load parameter's 1, by which these times were made [s]
+  double elapsed = 0.0;         ///< since the start, with the times that cycles stood for [s]
+  CellField<double> stood_for;  ///< heat of the cycle that last stood for a time [J]; empty before, and one-way
+  double stretch = 0.0;         ///< that time [s]
+  CellField<double> felt;       ///< rises by which the last step was solved [K]; empty one-way
   friend bool operator==(const HeatState&, const HeatState&) = default;
 };
 

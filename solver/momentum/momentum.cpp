@@ -67,8 +67,8 @@ CellField<double> MomentumOperator::set_finite(const FiniteLawAt& law, const std
   return finite_->states().face_stiffness();
 }
 
-bool MomentumOperator::set_eigenstrain(std::optional<double> t) {
-  return eigenstrain_->set(skeleton_->mesh, skeleton_->unknowns.loads, t);
+bool MomentumOperator::set_eigenstrain(std::optional<double> t, const CellField<double>& rise) {
+  return eigenstrain_->set(skeleton_->mesh, skeleton_->unknowns.loads, t, rise);
 }
 
 // In a uniform body the forces of eigenstrains cancel. Pressures are zero then.

@@ -63,9 +63,9 @@ class MomentumOperator {
                                const std::vector<Vector>& u, double t, double part = 0.0);
   /// Cells of the sides that have a gradient of their own at finite strain, in their order.
   std::vector<Index> own_sides_at_finite_strain();
-  /// The eigenstrains of the body at the load parameter t, or none; before set_moduli(), set_law() and set_finite().
-  /// Returns whether they have changed.
-  bool set_eigenstrain(std::optional<double> t);
+  /// The eigenstrains of the body at the load parameter t and these rises of the temperature [K], empty: none; or none;
+  /// before set_moduli(), set_law() and set_finite(). Returns whether they have changed.
+  bool set_eigenstrain(std::optional<double> t, const CellField<double>& rise = {});
   const CellField<Mandel>& eigenstrain() const { return eigenstrain_->all(); }  ///< of now [-]; empty: none
   /// Twice the energy that the eigenstrains of now would store in the undamaged body if nothing moved, at finite strain
   /// by its elasticity at small strain [J].

@@ -25,8 +25,8 @@ CellHistories CellStiffness::virgin_histories() const {
   return finite_.any() ? finite_.histories().virgin_histories() : materials_.virgin_histories();
 }
 
-void CellStiffness::start_step(double duration) {
-  materials_.start_step(duration);
+void CellStiffness::start_step(double duration, const CellField<double>& shift) {
+  materials_.start_step(duration, shift);
   const std::size_t n = mesh_.n_cells();
   closing_ = CellField<float>(n, 0.0F);
   turns_ = CellField<Index>(n, 0);
@@ -62,7 +62,7 @@ Tensor CellStiffness::thinned_gradient(Index cell, const CellMechanics& mechanic
 void CellStiffness::set(const FractureState& state, MomentumSolver& momentum) const {
   const std::size_t n = mesh_.n_cells();
   const CellField<double> g = factors(state);
-  momentum.set_eigenstrain(state.step > 0 ? std::optional(state.load) : std::nullopt);
+  momentum.set_eigenstrain(state.step > 0 ? std::optional(state.load) : std::nullopt, state.heat.felt);
   if (finite_.any()) {
     const CellField<Mandel>& free = momentum.balance().eigenstrain();
     const auto law = [&](Index c, Index own, const Tensor& H) {

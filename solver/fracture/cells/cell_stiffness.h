@@ -21,7 +21,8 @@ class CellStiffness {
   CellStiffness(const Mesh& mesh, const FractureModel& model);
 
   /// Begins a load step, which takes `duration` [s]: clears the memory of how the strains moved in the previous one.
-  void start_step(double duration);
+  /// `shift`: a_T of every cell (temperature_shift.h); empty: 1.
+  void start_step(double duration, const CellField<double>& shift = {});
   /// Names the cells of the sides that have a gradient of their own at finite strain; before virgin_histories().
   void set_own_sides(std::vector<Index> cells) { finite_.set_own_sides(std::move(cells)); }
   CellHistories virgin_histories() const;

@@ -40,9 +40,10 @@ MaterialCells::MaterialCells(const Mesh& mesh, const FractureModel& model)
   start_step(0.0);
 }
 
-void MaterialCells::start_step(double duration) {
+void MaterialCells::start_step(double duration, const CellField<double>& shift) {
   duration_ = duration;
-  gaps_.start_step(duration);
+  shift_ = shift;
+  gaps_.start_step(duration, shift);
   parallel_for(any_ ? mesh_.n_cells() : 0, [&](Index c) {
     if (has(c)) tangent_[c] = stiffness_matrix(gaps_.has(c) ? gaps_.elasticity(c) : material_[c]->elasticity());
   });
@@ -56,7 +57,7 @@ double MaterialCells::advance(Index cell, const CellMechanics& mechanics, const 
   const Mandel expected = linearised(cell, to)(to_mandel(strain));
   const std::size_t n = material.history_size();
   const MaterialResponse result =
-      material.update({from.gradient(cell), strain, duration_, law_numbers(cell, from)}, to.of(cell).first(n));
+      material.update({from.gradient(cell), strain, duration(cell), law_numbers(cell, from)}, to.of(cell).first(n));
   if (!result.solved) return std::numeric_limits<double>::quiet_NaN();
   if (gaps_.has(cell))
     gaps_.advance(cell, mechanics.volume_changes[cell], mechanics.gaps, gap_numbers(cell, from),

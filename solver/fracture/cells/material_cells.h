@@ -25,8 +25,8 @@ class MaterialCells {
   bool any() const { return any_; }
   bool has(Index cell) const { return any_ && material_[cell] != nullptr; }
 
-  /// Begins a load step, which takes `duration` [s].
-  void start_step(double duration);
+  /// Begins a load step, which takes `duration` [s]. `shift`: a_T of every cell (temperature_shift.h); empty: 1.
+  void start_step(double duration, const CellField<double>& shift = {});
   /// Takes a cell from its history at the start of the step to its strain of now. Returns the error [J/m^3] of its
   /// energy density with the previous linearised stress; NaN if the material's step cannot be solved.
   double advance(Index cell, const CellMechanics& mechanics, const CellHistories& from, CellHistories& to);
@@ -42,6 +42,7 @@ class MaterialCells {
   std::vector<OutputHistory> output(const CellHistories& histories) const;
 
  private:
+  double duration(Index cell) const { return shift_.size() > 0 ? duration_ / shift_[cell] : duration_; }
   // Numbers of the law alone, without those of the gaps.
   std::span<const double> law_numbers(Index cell, const CellHistories& histories) const {
     return histories.of(cell).first(material_[cell]->history_size());
@@ -53,7 +54,8 @@ class MaterialCells {
   const Mesh& mesh_;
   const FractureModel& model_;
   bool any_ = false;
-  double duration_ = 0.0;
+  double duration_ = 0.0;                // of the step [s]
+  CellField<double> shift_;              // a_T in it; empty: 1
   CellField<const Material*> material_;  // null: elastic
   RelaxingGaps gaps_;
   CellField<MandelMatrix> tangent_;  // [Pa]; empty without such cells

@@ -2,6 +2,7 @@
 
 #include "solver/fracture/model/relaxing_volume.h"
 #include "solver/momentum/body/momentum_faces.h"
+#include "solver/parallel.h"
 
 #include <algorithm>
 #include <array>
@@ -71,14 +72,22 @@ RelaxingGaps::RelaxingGaps(const Mesh& mesh, const CellField<const Material*>& m
   start_step(0.0);
 }
 
-void RelaxingGaps::start_step(double duration) {
-  for (Kind& kind : kinds_) {
-    kind.elasticity = elasticity_over(*kind.law, duration);
-    kind.shear.clear();
-    kind.bulk.clear();
-    for (const PronyBranch& branch : kind.law->shear) kind.shear.push_back(decay_over(duration / branch.time));
-    for (const PronyBranch& branch : kind.law->bulk) kind.bulk.push_back(decay_over(duration / branch.time));
-  }
+RelaxingGaps::Moment RelaxingGaps::moment_of(const PronyLaw& law, double duration) {
+  Moment moment{.elasticity = elasticity_over(law, duration)};
+  for (const PronyBranch& branch : law.shear) moment.shear.push_back(decay_over(duration / branch.time));
+  for (const PronyBranch& branch : law.bulk) moment.bulk.push_back(decay_over(duration / branch.time));
+  return moment;
+}
+
+void RelaxingGaps::start_step(double duration, const CellField<double>& shift) {
+  is_shifted_ = any() && shift.size() > 0;
+  moments_.resize(is_shifted_ ? as_size(kind_.size()) : kinds_.size());
+  if (is_shifted_)
+    parallel_for(kind_.size(), [&](Index c) {
+      if (has(c)) moments_[c] = moment_of(*kind(c).law, duration / shift[c]);
+    });
+  else
+    std::ranges::transform(kinds_, moments_.begin(), [&](const Kind& by) { return moment_of(*by.law, duration); });
 }
 
 std::size_t RelaxingGaps::size(Index cell) const {
@@ -92,14 +101,15 @@ void RelaxingGaps::tell(Index cell, std::span<const double> numbers, At when, Hi
     return when == At::end ? of.remainder(spring, strain) : of.remainder_after(spring, strain);
   };
   const Kind& by = kind(cell);
+  const Moment& in_step = moment(cell);
   const std::size_t n_shear = by.law->shear.size(), n_bulk = by.law->bulk.size();
-  history.sound[cell] = by.elasticity;
+  history.sound[cell] = in_step.elasticity;
   history.relaxes[cell] = 1;
   for (std::size_t i = 0; by.has_pressure && i < n_shear; ++i) {
     const double modulus = by.law->shear[i].modulus;
     const std::span<const double> springs = numbers.subspan(branches_from + 2 * i, 2);
-    history.volumes[cell].by_gradient += modulus * remainder(by.shear[i], springs[0], numbers[volumes_from]);
-    history.volumes[cell].by_flux += modulus * remainder(by.shear[i], springs[1], numbers[volumes_from + 1]);
+    history.volumes[cell].by_gradient += modulus * remainder(in_step.shear[i], springs[0], numbers[volumes_from]);
+    history.volumes[cell].by_flux += modulus * remainder(in_step.shear[i], springs[1], numbers[volumes_from + 1]);
   }
   const auto faces = mesh_.faces_of_cell(cell);
   const std::size_t first = mesh_.cell_face_offsets[cell];
@@ -108,18 +118,20 @@ void RelaxingGaps::tell(Index cell, std::span<const double> numbers, At when, Hi
     const Vector z = vector_at(numbers, at);
     GapStress& left = history.gaps[first + k];
     for (std::size_t i = 0; i < n_shear; ++i)
-      left.shear += by.law->shear[i].modulus * remainder(by.shear[i], Vector(vector_at(numbers, at + 3 + 3 * i)), z);
+      left.shear +=
+          by.law->shear[i].modulus * remainder(in_step.shear[i], Vector(vector_at(numbers, at + 3 + 3 * i)), z);
     const double along = z.dot(mesh_.face_area[faces[k]].normalized());
     for (std::size_t j = 0; j < n_bulk; ++j)
-      left.bulk += by.law->bulk[j].modulus * remainder(by.bulk[j], numbers[at + 3 + 3 * n_shear + j], along);
+      left.bulk += by.law->bulk[j].modulus * remainder(in_step.bulk[j], numbers[at + 3 + 3 * n_shear + j], along);
   }
 }
 
 void RelaxingGaps::advance(Index cell, const VolumeChanges& changes, const std::vector<FaceGap>& gaps,
                            std::span<const double> from, std::span<double> to) const {
   const Kind& by = kind(cell);
+  const std::vector<PronyDecay>&shear = moment(cell).shear, &bulk = moment(cell).bulk;
   const std::size_t n_shear = by.law->shear.size(), n_bulk = by.law->bulk.size();
-  if (by.has_pressure) advance_volumes(by.shear, changes, from, to);
+  if (by.has_pressure) advance_volumes(shear, changes, from, to);
   Energy sum;
   const auto add = [&](const Energy& of, double volume) {
     sum.locked += of.locked * volume;
@@ -136,15 +148,15 @@ void RelaxingGaps::advance(Index cell, const VolumeChanges& changes, const std::
     };
     Eigen::Map<Vector>(to.data() + at) = z;
     for (std::size_t i = 0; i < n_shear; ++i) {
-      const Vector r_n = vector_at(from, at + 3 + 3 * i), r = by.shear[i].after(r_n, Vector(z - z_n));
+      const Vector r_n = vector_at(from, at + 3 + 3 * i), r = shear[i].after(r_n, Vector(z - z_n));
       Eigen::Map<Vector>(to.data() + at + 3 + 3 * i) = r;
-      add(energy_of(by.law->shear[i], by.shear[i], r_n, r, z_n, z, dot), gap.volume);
+      add(energy_of(by.law->shear[i], shear[i], r_n, r, z_n, z, dot), gap.volume);
     }
     for (std::size_t j = 0; j < n_bulk; ++j) {
       const std::size_t place = at + 3 + 3 * n_shear + j;
       const double r_n = from[place], a_n = z_n.dot(n), a = z.dot(n);
-      const double r = to[place] = by.bulk[j].after(r_n, a - a_n);
-      add(energy_of(by.law->bulk[j], by.bulk[j], r_n, r, a_n, a, [](double x, double y) { return x * y; }),
+      const double r = to[place] = bulk[j].after(r_n, a - a_n);
+      add(energy_of(by.law->bulk[j], bulk[j], r_n, r, a_n, a, [](double x, double y) { return x * y; }),
           gap.by_bulk * gap.volume);
     }
   }

@@ -37,10 +37,11 @@ class RelaxingGaps {
   bool has(Index cell) const { return any() && kind_[cell] >= 0; }
   /// Count of the numbers that a cell remembers.
   std::size_t size(Index cell) const;
-  void start_step(double duration);  ///< [s]
+  /// `duration` [s]; `shift`: a_T of every cell (temperature_shift.h); empty: 1.
+  void start_step(double duration, const CellField<double>& shift = {});
 
   /// Moduli that a change of strain meets in the step, undamaged.
-  const IsotropicElasticity& elasticity(Index cell) const { return kind(cell).elasticity; }
+  const IsotropicElasticity& elasticity(Index cell) const { return moment(cell).elasticity; }
   /// The time in a step of which numbers are.
   enum class At { start, end };
   /// Writes what a cell remembers into a history with room for all cells.
@@ -57,17 +58,24 @@ class RelaxingGaps {
   struct Kind {
     const PronyLaw* law;
     bool has_pressure = false;
-    std::vector<PronyDecay> shear{}, bulk{};
-    IsotropicElasticity elasticity{};
     // Energies; with a pressure also the two volume changes, and what is left of both in each shear branch.
     std::size_t per_cell() const { return 2 + (has_pressure ? 2 + 2 * law->shear.size() : 0); }
     std::size_t per_face() const { return 3 + 3 * law->shear.size() + law->bulk.size(); }
   };
+  // What a kind has in a step of its duration.
+  struct Moment {
+    std::vector<PronyDecay> shear{}, bulk{};
+    IsotropicElasticity elasticity{};
+  };
+  static Moment moment_of(const PronyLaw& law, double duration);
   const Kind& kind(Index cell) const { return kinds_[kind_[cell]]; }
+  const Moment& moment(Index cell) const { return moments_[is_shifted_ ? cell : kind_[cell]]; }
 
   const Mesh& mesh_;
   std::vector<Kind> kinds_;
-  CellField<Index> kind_;  // -1: none
+  std::vector<Moment> moments_;  // of the step, by kind, or by cell
+  bool is_shifted_ = false;      // by cell
+  CellField<Index> kind_;        // -1: none
 };
 
 }  // namespace pfdm

@@ -36,7 +36,7 @@ bool FractureModel::has_body_force() const { return loads.force || loads.gravity
 
 bool FractureModel::has_eigenstrain() const {
   return std::ranges::any_of(regions, [&](const RegionModel& region) {
-    return region.eigenstrain || (loads.temperature && !region.expansion.isZero());
+    return region.eigenstrain || ((loads.temperature || is_warmed()) && !region.expansion.isZero());
   });
 }
 
@@ -85,6 +85,10 @@ VolumeLoads volume_loads(const FractureModel& model) {
       Tensor strain = by_place ? (*by_place)(x, t) : Tensor::Zero();
       if (temperature) strain += temperature(x, t) * expansion(mesh, cell);
       return to_mandel(strain);
+    };
+  if (model.has_eigenstrain() && model.is_warmed())
+    loads.expansion = [by = by_cell(model, &RegionModel::expansion)](const Mesh& mesh, Index cell) {
+      return to_mandel(by(mesh, cell));
     };
   return loads;
 }

@@ -69,6 +69,7 @@ struct BodyLoads {
   LoadField<Vector> gravity{};      ///< acceleration [m/s^2], which acts on the density of the regions
   LoadField<Vector> force{};        ///< per reference volume, in all regions [N/m^3]
   LoadField<double> temperature{};  ///< change of it [K]
+  double start_temperature = 0.0;   ///< from which changes and rises by heat count [K]; 0: not known
 };
 
 /// Interior faces whose sides a cohesive law joins.
@@ -119,6 +120,7 @@ struct FractureModel {
   bool has_strength() const;     ///< whether some region has a strength model
   bool has_body_force() const;   ///< whether a force or gravity is given
   bool has_eigenstrain() const;  ///< whether some region expands or has one
+  bool is_warmed() const { return heat && heat->is_two_way; }  ///< whether rises by heat act on the body
   /// The least damage that a step from this one may end with.
   CellField<double> lower_bound(const CellField<double>& damage) const;
   bool is_anisotropic() const;  ///< whether the elasticity of some region depends on the direction

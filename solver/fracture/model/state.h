@@ -38,6 +38,7 @@ struct HeatReport {
   HeatFigures figures{};
   HeatBalance account{};
   double cycle_change = 0.0;  ///< of the last whole cycle's heat from the one before, relative; infinite before two
+  double elapsed = 0.0;       ///< since the start, with the times that cycles stood for [s]
 };
 
 /// One row of the force-displacement curve.

@@ -4,11 +4,17 @@
 
 namespace pfdm {
 
-bool CellEigenstrain::set(const Mesh& mesh, const VolumeLoads& loads, std::optional<double> t) {
-  if (!loads.eigenstrain || t == load_) return false;
+bool CellEigenstrain::set(const Mesh& mesh, const VolumeLoads& loads, std::optional<double> t,
+                          const CellField<double>& rise) {
+  const bool is_warm = loads.expansion && rise.size() > 0;
+  if (!loads.eigenstrain || (t == load_ && (!is_warm || rise == rise_))) return false;
   load_ = t;
+  if (is_warm) rise_ = rise;
   of_cell_ = CellField<Mandel>(t ? as_size(mesh.n_cells()) : 0);
-  parallel_for(of_cell_.size(), [&](Index c) { of_cell_[c] = loads.eigenstrain(mesh, c, *t); });
+  parallel_for(of_cell_.size(), [&](Index c) {
+    of_cell_[c] = loads.eigenstrain(mesh, c, *t);
+    if (is_warm) of_cell_[c] += rise[c] * loads.expansion(mesh, c);
+  });
   return true;
 }
 

@@ -10,8 +10,9 @@ namespace pfdm {
 
 class CellEigenstrain {
  public:
-  /// Takes the eigenstrains of the body at the load parameter t, or none. Returns whether they have changed.
-  bool set(const Mesh& mesh, const VolumeLoads& loads, std::optional<double> t);
+  /// Takes the eigenstrains of the body at the load parameter t and these rises of the temperature [K], empty: none; or
+  /// takes none. Returns whether they have changed.
+  bool set(const Mesh& mesh, const VolumeLoads& loads, std::optional<double> t, const CellField<double>& rise);
 
   bool any() const { return of_cell_.size() > 0; }
   const CellField<Mandel>& all() const { return of_cell_; }  ///< [-]; empty: none
@@ -21,7 +22,8 @@ class CellEigenstrain {
   }
 
  private:
-  std::optional<double> load_;  // parameter at which they are
+  std::optional<double> load_;  // parameter at which they are, and
+  CellField<double> rise_;      // rises [K]; empty without
   CellField<Mandel> of_cell_;
 };
 

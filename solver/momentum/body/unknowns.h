@@ -55,6 +55,8 @@ struct BoxMotion {
 struct VolumeLoads {
   std::function<Vector(const Mesh& mesh, Index cell, double t)> force;        ///< per volume, of the reference [N/m^3]
   std::function<Mandel(const Mesh& mesh, Index cell, double t)> eigenstrain;  ///< [-]
+  /// By a rise of the temperature besides; only with an eigenstrain [1/K].
+  std::function<Mandel(const Mesh& mesh, Index cell)> expansion{};
 };
 
 /// The law by which a cell changes its volume.

@@ -38,9 +38,9 @@ class MomentumSolver {
   /// A stress by the strain, linearised about the displacements u (MomentumOperator::set_law). The next solve rebuilds
   /// the preconditioner if the stiffness of some cell's faces has changed by more than a factor of 2.
   void set_law(StrainLaw law, const CellField<double>& g, const std::vector<Vector>& u);
-  /// The eigenstrains of the body at the load parameter t, or none: before set_moduli and set_law.
-  void set_eigenstrain(std::optional<double> t) {
-    if (operator_.set_eigenstrain(t)) reference_load_.reset();
+  /// MomentumOperator::set_eigenstrain(): before set_moduli and set_law.
+  void set_eigenstrain(std::optional<double> t, const CellField<double>& rise = {}) {
+    if (operator_.set_eigenstrain(t, rise)) reference_load_.reset();
   }
   /// Finite strain: the balance is linearised about the displacements u and the load parameter t
   /// (MomentumOperator::set_finite). The next solve rebuilds the preconditioner if the stiffness of some cell's faces

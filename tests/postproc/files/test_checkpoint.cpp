@@ -47,7 +47,12 @@ FractureState awkward_state() {
             .transmitted = {7.0},
             .cycle_transmittance = {8.0},
             .cycle_change = 0.25,
-            .account = {.made = 0.1, .stored = 0.2, .lost = -0.0}};
+            .account = {.made = 0.1, .stored = 0.2, .lost = -0.0},
+            .duration = 3.0,
+            .elapsed = 1.0 / 3.0,
+            .stood_for = CellField<double>({5.0, 6.0, 7.0}),
+            .stretch = 0.7,
+            .felt = CellField<double>({0.2, -0.0, 1e-310})};
   s.fatigue = {.energy = CellField<double>({1e300, 0.1, -0.0}),
                .active = CellField<double>({0.3, 1.0 / 3.0, 1e-310}),
                .spent = CellField<double>({1.0, 2.0, 3.0}),
@@ -133,8 +138,8 @@ TEST(Checkpoint, says_what_is_wrong) {
   EXPECT_THAT(complaint(whole, "another"), HasSubstr("another case"));
   EXPECT_THAT(complaint(whole, "another"), HasSubstr(hash));
   std::string other = whole;
-  other[8] = 15;
-  EXPECT_THAT(complaint(other, hash), HasSubstr("has format 15; this program reads format 14"));
+  other[8] = 16;
+  EXPECT_THAT(complaint(other, hash), HasSubstr("has format 16; this program reads format 15"));
   other = whole;
   other[other.size() / 2] = static_cast<char>(other[other.size() / 2] ^ 4);
   EXPECT_THAT(complaint(other, hash), HasSubstr("checksum"));

@@ -2,6 +2,7 @@
 
 #include "cases/program/input/fields/amount.h"
 #include "cases/program/input/fields/field_reader.h"
+#include "physics/materials/prony.h"
 
 #include <fmt/format.h>
 
@@ -51,6 +52,7 @@ BodyLoads read_body_loads(const ConfigTable& root) {
   if (const auto gravity = table.find("gravity")) loads.gravity = read_vector(*gravity, from_start);
   if (const auto force = table.find("body_force")) loads.force = read_vector(*force, from_start);
   if (const auto change = table.find("temperature_change")) loads.temperature = read_temperature(*change, from_start);
+  loads.start_temperature = table.quantity("start_temperature", 0.0);
   return loads;
 }
 
@@ -77,11 +79,18 @@ void require_body_loads(const ConfigTable& root, const FractureModel& model, con
       throw root.table("loads").at("gravity").error(
           fmt::format("region \"{}\" has no density, on which gravity acts; give its material one, as in \"{}\"",
                       mesh.region_names[r], dimension::density.example));
-  const auto expands = [](const RegionModel& region) { return !region.expansion.isZero(); };
-  if (by.temperature && std::ranges::none_of(model.regions, expands))
+  const auto shifts = [](const RegionModel& region) {
+    return region.material && region.material->relaxing() != nullptr && region.material->relaxing()->shift;
+  };
+  const auto feels = [&](const RegionModel& region) { return !region.expansion.isZero() || shifts(region); };
+  if (by.temperature && std::ranges::none_of(model.regions, feels))
     throw root.table("loads")
         .at("temperature_change")
-        .error("no material expands; give one its expansion, as in \"12e-6 1/K\"");
+        .error(
+            "no material expands, or has times that depend on it; give one its expansion, as in \"12e-6 1/K\", or a "
+            "temperature_shift");
+  if (by.start_temperature > 0.0 && std::ranges::none_of(model.regions, shifts))
+    throw root.table("loads").at("start_temperature").error("no material has a temperature_shift, which needs it");
   for (Index c = 0; c < mesh.n_cells(); ++c)
     for (const double load : loads) {
       const Vector& x = mesh.cell_centre[c];

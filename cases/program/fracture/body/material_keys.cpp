@@ -3,6 +3,7 @@
 #include "cases/program/fracture/body/body_keys.h"
 #include "cases/program/fracture/body/body_loads.h"
 #include "cases/program/fracture/body/material_laws.h"
+#include "cases/program/fracture/body/temperature_shift_case.h"
 #include "cases/program/input/config/heat_units.h"
 #include "cases/program/input/laws/endochronic_keys.h"
 #include "cases/program/input/laws/law_reader.h"
@@ -183,6 +184,7 @@ const KeyTable& material_keys() {
             {"kinematic_hardening", quantity(dimension::stress, range::not_negative), "0",
              "Slope of the back stress by the equivalent plastic strain.", j2}},
            prony_branch_keys(viscous, "prony"),
+           {temperature_shift_row("prony")},
            {{"driven_by", choice("driving energy", {"equilibrium", "stored"}), "\"equilibrium\"",
              "Energy that drives damage: of the relaxed elasticity, or all that is stored, also in the branches.",
              viscous},

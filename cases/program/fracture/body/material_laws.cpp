@@ -1,5 +1,6 @@
 #include "cases/program/fracture/body/material_laws.h"
 
+#include "cases/program/fracture/body/temperature_shift_case.h"
 #include "cases/program/input/laws/endochronic_reader.h"
 #include "cases/program/input/laws/prony_reader.h"
 #include "physics/materials/endochronic_material.h"
@@ -44,11 +45,14 @@ PronyDrive read_drive(const ConfigTable& material) {
 
 constexpr MaterialLaw prony{
     .name = "prony",
-    .description = "linear viscoelasticity, a generalised Maxwell body; shear_branches, bulk_branches, driven_by",
+    .description =
+        "linear viscoelasticity, a generalised Maxwell body; shear_branches, bulk_branches, driven_by, "
+        "temperature_shift",
     .read =
         [](const ConfigTable& material) {
           PronyLaw law = read_prony_series(material);
           law.drive = read_drive(material);
+          law.shift = read_temperature_shift(material);
           return make_prony(law);
         },
 };

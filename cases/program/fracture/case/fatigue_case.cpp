@@ -6,7 +6,7 @@ namespace pfdm {
 namespace {
 
 constexpr Range parts_range{1.0, 1e6, false, "between 1 and 1e6"};
-constexpr Range fall_range{0.0, 1.0, true, "above 0 and below 1"};
+constexpr Range toughness_fall_range{0.0, 1.0, true, "above 0 and below 1"};
 
 }  // namespace
 
@@ -21,7 +21,7 @@ const KeyTable& fatigue_cycle_keys() {
           stored<&C::steps>("steps", whole(parts_range),
                             "Number of equal parts of a cycle at whose ends a step ends; the peaks of the load are to "
                             "be among them."),
-          stored<&C::jump_tolerance>("jump_tolerance", number(fall_range),
+          stored<&C::jump_tolerance>("jump_tolerance", number(toughness_fall_range),
                                      "Largest fall of any cell's toughness factor f by a jump over cycles.",
                                      "none: every cycle is computed"),
           stored<&C::computed_cycles>("computed_cycles", whole(parts_range),

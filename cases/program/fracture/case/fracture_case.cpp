@@ -195,16 +195,18 @@ void require_boundary_values(const FractureCase& fracture, const Mesh& mesh, std
   }
 }
 
-/// What expands does so by [loads] alone.
+/// One-way, what expands does so by [loads] alone.
 void give_heat(FractureCase& fracture) {
-  fracture.model.heat = fracture.heat->model;
+  fracture.model.heat = fracture.heat;
+  if (fracture.heat->is_two_way) return;
   const auto expands = [](const RegionMaterial& region) {
     return !region.varies && !region.at(Vector::Zero()).expansion.isZero();
   };
   const auto found = std::ranges::find_if(fracture.materials.by_region, expands);
   if (found == fracture.materials.by_region.end()) return;
   fracture.materials.remarks.push_back(fmt::format(
-      "region \"{}\" expands by [loads] temperature_change alone: the temperatures of [heat] make no strains",
+      "region \"{}\" expands by [loads] temperature_change alone: the temperatures of [heat] make no strains "
+      "(heat.coupling = \"two_way\" has them)",
       found->region));
 }
 

@@ -55,7 +55,7 @@ struct FractureCase {
   FractureModel model;  ///< what depends on the mesh is filled in by model_on()
   Perturbation perturbation;
   std::optional<InitialDamage> initial_damage;
-  std::optional<HeatSettings> heat;  ///< its model is that of `model`
+  std::optional<HeatModel> heat;  ///< that of `model`
   StaggeredSettings staggered;
   LoadingSettings loading;
   FractureOutput output;

@@ -66,8 +66,8 @@ void read_boundary_of(const ConfigTable& table, std::vector<DiffusionBoundary>& 
   }
 }
 
-void check_cycles(const ConfigTable& table, const HeatSettings& heat, const LoadingSettings& loading) {
-  const double cycle = heat.model.cycle;
+void check_cycles(const ConfigTable& table, const HeatModel& heat, const LoadingSettings& loading) {
+  const double cycle = heat.cycle;
   if (!(cycle > 0.0))
     for (const char* key : {"time", "time_steps", "repeats_within"})
       if (const auto value = table.find(key))
@@ -78,13 +78,14 @@ void check_cycles(const ConfigTable& table, const HeatSettings& heat, const Load
         fmt::format("whether a cycle repeats is told from two; the loading ends at {:g}: loading.end = {:g} or more",
                     loading.end, 2.0 * cycle));
   if (table.has("time_steps") && !table.has("time")) throw table.at("time_steps").error("this belongs to a time");
+  if (table.has("changes_within") && !(heat.is_two_way && heat.time > 0.0))
+    throw table.at("changes_within").error("this belongs to coupling = \"two_way\" with a time");
 }
 
 }  // namespace
 
 const KeyTable& heat_keys() {
   using namespace keys;
-  using H = HeatSettings;
   using M = HeatModel;
   static const KeyTable table{
       .name = "heat",
@@ -107,23 +108,29 @@ const KeyTable& heat_keys() {
           stored<&M::repeats_within>(
               "repeats_within", number(share_range),
               "Change of a cycle's heat from the one before, over all cells, below which it repeats; relative."),
-          stored<&H::time>("time", quantity(dimension::time, range::positive),
+          stored<&M::time>("time", quantity(dimension::time, range::positive),
                            "Time for which the mean heat of the last cycle then warms the body.", "none"),
-          stored<&H::time_steps>("time_steps", whole(steps_range), "Number of equal steps of that time."),
+          stored<&M::time_steps>("time_steps", whole(steps_range), "Number of equal steps of that time."),
+          {"coupling", choice("coupling of heat and stress", {"one_way", "two_way"}), "\"one_way\"",
+           "Whether rises of the temperature also act on the body: by expansion and by temperature_shift."},
+          stored<&M::changes_within>(
+              "changes_within", number(share_range),
+              "Change of a cycle's shear moduli or heat, relative, from which on it is gone through "
+              "again within the time; of coupling \"two_way\"."),
       }};
   return table;
 }
 
-std::optional<HeatSettings> read_heat(const ConfigTable& root, const LoadingSettings& loading) {
+std::optional<HeatModel> read_heat(const ConfigTable& root, const LoadingSettings& loading) {
   if (!root.has("heat")) return std::nullopt;
   const ConfigTable table = root.table("heat");
-  HeatSettings heat;
+  HeatModel heat;
   read_stored(table, heat);
-  read_stored(table, heat.model);
+  heat.is_two_way = table.choice("coupling", "one_way") == "two_way";
   if (const auto closed = table.find("closed_conductance");
       closed && !(closed->is_string() && closed->string() == "perfect"))
-    heat.model.closed_conductance = closed->quantity();
-  for (const ConfigTable& on : table.tables("boundary")) read_boundary_of(on, heat.model.boundary);
+    heat.closed_conductance = closed->quantity();
+  for (const ConfigTable& on : table.tables("boundary")) read_boundary_of(on, heat.boundary);
   if (!(loading.duration > 0.0))
     throw table.error("heat requires the time in which the load parameter grows by 1: duration = \"1 s\" in [loading]");
   check_cycles(table, heat, loading);

@@ -113,7 +113,7 @@ std::vector<std::string> FractureResults::step_done(const FractureState& state, 
   note_debonding(state, report, output);
   const bool waits = may_wait();
   if (files_->means) files_->means->append(row_of_means(report), !waits);
-  if (files_->heat) files_->heat->append(row_of_heat(report, fracture_.loading.duration), !waits);
+  if (files_->heat) files_->heat->append(row_of_heat(report), !waits);
   if (files_->fatigue) files_->fatigue->append(row_of_fatigue(report), !waits);
   if (waits) {
     waits_ = true;

@@ -38,8 +38,8 @@ std::vector<std::string> columns_of_heat() {
   return names;
 }
 
-std::vector<double> row_of_heat(const StepReport& report, double duration) {
-  std::vector<double> row{static_cast<double>(report.step), report.load, report.load * duration};
+std::vector<double> row_of_heat(const StepReport& report) {
+  std::vector<double> row{static_cast<double>(report.step), report.load, report.heat->elapsed};
   add_heat_figures(report.heat->figures, report.heat->account, row);
   row.push_back(std::min(report.heat->cycle_change, 1.0));  // a number, too, before two whole cycles
   return row;
@@ -54,8 +54,8 @@ std::optional<HeadFigure> figure_of_hottest_place(const FractureCase& fracture, 
   if (!fracture.heat) return std::nullopt;
   const auto figure = [&](const std::string& name) { return summary.other_figure(name); };
   const double power = figure("heating_of_cycles_W");
-  const bool is_long = std::isfinite(power);
-  const std::string of = is_long ? "after_time_" : "final_";
+  const bool is_long = std::isfinite(power), is_followed = follows_long_time(*fracture.heat);
+  const std::string of = is_long && !is_followed ? "after_time_" : "final_";
   const double rise = figure(of + "greatest_rise_K");
   if (!(rise > 0.0)) return std::nullopt;
   return HeadFigure{

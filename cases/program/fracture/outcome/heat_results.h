@@ -21,8 +21,7 @@ inline constexpr const char* heat_over_time_file = "heat_over_time.csv";
 inline constexpr const char* heated_file = "heated.vtu";
 
 std::vector<std::string> columns_of_heat();  ///< of heat_file
-/// `duration`: of a load parameter of 1 [s].
-std::vector<double> row_of_heat(const StepReport& report, double duration);
+std::vector<double> row_of_heat(const StepReport& report);
 /// Of the last row, for the summary.
 std::map<std::string, double> figures_of_heat(const StepTable& table);
 

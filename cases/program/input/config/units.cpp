@@ -40,6 +40,7 @@ constexpr const Dimension* named_dimensions[] = {&dimension::length,
                                                  &dimension::specific_heat,
                                                  &dimension::heat_transfer,
                                                  &dimension::per_temperature,
+                                                 &dimension::molar_energy,
                                                  &dimension::number};
 
 using Unit = std::unique_ptr<ut_unit, decltype(&ut_free)>;
