@@ -130,6 +130,68 @@ TEST(HeatCase, SaysThatTemperaturesMakeNoStrains) {
   EXPECT_NE(outcome.out.find("make no strains"), std::string::npos) << outcome.out;
 }
 
+// Times that shift by some tens of per cent within the rises of the block.
+const std::string acts_back = [] {
+  std::string text = replaced(heated_block, "damageable = false\n",
+                              "damageable = false\nexpansion = \"3e-4 1/K\"\ntemperature_shift = { law = "
+                              "\"arrhenius\", reference = \"20 degC\", activation_energy = \"200 kJ/mol\" }\n");
+  text = replaced(text, "[loading]", "[loads]\nstart_temperature = \"20 degC\"\n[loading]");
+  text = replaced(text, "1e-3*y*1e6", "3e-2*y*1e6");
+  text = replaced(replaced(text, "end = 8", "end = 60"), "time_steps = 20", "time_steps = 40\ncoupling = \"two_way\"");
+  text = replaced(text, "maximum_increment = 0.025", "maximum_increment = 0.1");
+  return replaced(text, "initial_increment = 0.025", "initial_increment = 0.1");
+}();
+
+TEST(HeatCase, ActsBackAndGoesOnAfterAStop) {
+  const TemporaryCase whole(acts_back), stopped(acts_back);
+  const Outcome outcome = run({"run", whole.path().string()});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_NE(outcome.out.find("in 400 s the body has become warmer by at most"), std::string::npos) << outcome.out;
+  const CsvTable steps = read_csv(whole.results() / "heat.csv");
+  EXPECT_NEAR(steps.column("time_s").back(), 400.0, 1e-9);
+  const auto summary = nlohmann::json::parse(content_of(whole.results() / "summary.json"));
+  const double one_way = 0.25e6 * 3e-2 * 3e-2 * 1e3 * 1e-3 / 50.0;  // G'' gamma_0^2 w/2 L/h, at rest
+  EXPECT_GT(summary.at("final_mean_rise_K").get<double>(), 0.3 * one_way);
+  EXPECT_LT(summary.at("final_mean_rise_K").get<double>(), 0.97 * one_way);
+  EXPECT_LT(summary.at("final_load").get<double>(), 60.0);
+  ASSERT_EQ(run({"run", stopped.path().string(), "--quiet", "--max-steps", "57"}).status, 0);
+  ASSERT_EQ(run({"run", stopped.path().string(), "--quiet", "--restart"}).status, 0);
+  for (const char* file : {"heat.csv", "force_displacement.csv"})
+    EXPECT_EQ(content_of(whole.results() / file), content_of(stopped.results() / file)) << file;
+}
+
+TEST(HeatCase, SaysThatTheLoadEndsBeforeTheTime) {
+  const TemporaryCase directory(replaced(acts_back, "end = 60", "end = 4"));
+  const Outcome outcome = run({"run", directory.path().string()});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_NE((outcome.out + outcome.err).find("of the 400 s of heat.time had gone by"), std::string::npos);
+}
+
+TEST(HeatCase, ThatActsBackIsRefused) {
+  for (const BadInput& input : std::vector<BadInput>{
+           {"no start", "[loads]\nstart_temperature = \"20 degC\"\n", "", {"body", "start_temperature"}},
+           {"start alone",
+            "temperature_shift = { law = \"arrhenius\", reference = \"20 degC\", activation_energy = \"200 kJ/mol\" "
+            "}\n",
+            "",
+            {"start_temperature", "temperature_shift"}},
+           {"energy", "\"200 kJ/mol\"", "\"200 kJ\"", {"activation_energy", "60 kJ/mol"}},
+           {"law", "\"arrhenius\"", "\"vogel\"", {"vogel", "wlf", "arrhenius"}},
+           {"too cold",
+            "law = \"arrhenius\", reference = \"20 degC\", activation_energy = \"200 kJ/mol\"",
+            "law = \"wlf\", reference = \"100 degC\", C1 = 17, C2 = \"50 K\"",
+            {"start_temperature", "323.15 K"}},
+           {"no difference",
+            "law = \"arrhenius\", reference = \"20 degC\", activation_energy = \"200 kJ/mol\"",
+            "law = \"wlf\", reference = \"0 degC\", C1 = 17, C2 = \"50 degC\"",
+            {"difference", "20 K"}},
+           {"changes",
+            "coupling = \"two_way\"",
+            "coupling = \"one_way\"\nchanges_within = 0.01",
+            {"changes_within", "two_way"}}})
+    expect_refused(TemporaryCase(replaced(acts_back, input.good, input.bad)), input);
+}
+
 TEST(HeatCase, IsRefused) {
   for (const BadInput& input : std::vector<BadInput>{
            {"none", "heat_transfer = \"50 W/m^2/K\"\n", "", {"one of rise, flux and heat_transfer"}},

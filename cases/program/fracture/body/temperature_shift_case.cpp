@@ -35,7 +35,7 @@ std::optional<TemperatureShift> read_temperature_shift(const ConfigTable& materi
   if (!material.has("temperature_shift")) return std::nullopt;
   const ConfigTable table = material.table("temperature_shift");
   TemperatureShift shift{.reference = table.quantity("reference")};
-  if (table.string("law") == "arrhenius") {
+  if (table.choice("law") == "arrhenius") {
     shift.law = TemperatureShift::Law::arrhenius;
     shift.activation_energy = table.quantity("activation_energy");
   } else {

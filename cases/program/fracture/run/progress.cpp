@@ -21,8 +21,9 @@ std::string clock_time(double seconds) {
   return fmt::format("{}:{:02}:{:02}", whole / 3600, whole / 60 % 60, whole % 60);
 }
 
-std::string words_for(std::optional<double> seconds_left) {
-  return seconds_left ? fmt::format("{} left", clock_time(*seconds_left)) : "time left unknown";
+std::string words_for_time_left(const ProgressFigures& figures) {
+  if (!figures.seconds_left) return "time left unknown";
+  return fmt::format("{}{} left", figures.may_end_early ? "at most " : "", clock_time(*figures.seconds_left));
 }
 
 std::string bar(double share, int width) {
@@ -75,7 +76,7 @@ std::vector<LinePart> line_parts(const ProgressFigures& figures) {
   if (!figures.event.empty()) parts.push_back({figures.event, ", ", 2});
   parts.push_back({std::move(steps), "; ", 3});
   if (figures.iteration > 0) parts.push_back({fmt::format("iteration {}", figures.iteration), ", ", 1});
-  parts.push_back({words_for(figures.seconds_left), "; ", 4});
+  parts.push_back({words_for_time_left(figures), "; ", 4});
   return parts;
 }
 
@@ -109,6 +110,7 @@ RunProgress::RunProgress(Log& log, double start, double end, ShownOfRun shown)
     : log_(log), end_(end), shown_(std::move(shown)), left_(start, end) {
   figures_.reached = fmt::format("load {:.4g} of {:.4g}", start, end);
   figures_.share = start / end;
+  figures_.may_end_early = shown_.may_end_early;
 }
 
 double RunProgress::seconds() const { return std::chrono::duration<double>(Clock::now() - began_).count(); }
@@ -143,7 +145,8 @@ void RunProgress::step_done(const StepReport& step, double displacement, double 
               .steps = step.step,
               .about_steps = 0,
               .iteration = 0,
-              .seconds_left = left_.seconds(seconds())};
+              .seconds_left = left_.seconds(seconds()),
+              .may_end_early = shown_.may_end_early};
   if (const auto more = left_.steps()) figures_.about_steps = step.step + static_cast<Index>(std::ceil(*more - 1e-6));
   draw();
   std::string line = fmt::format("step {:4}  load {:.5f}  {} {}  {} {}", step.step, step.load, names[0], values[0],
@@ -155,7 +158,7 @@ void RunProgress::step_done(const StepReport& step, double displacement, double 
     line += fmt::format("  debonded {}", shown_in({.si_unit = "m^2"}, std::accumulate(step.debonded_area.begin(),
                                                                                       step.debonded_area.end(), 0.0)));
   log_.step(line + fmt::format("  {:3} iterations  {} elapsed, {}", step.staggered_iterations, clock_time(seconds()),
-                               words_for(figures_.seconds_left)));
+                               words_for_time_left(figures_)));
 }
 
 }  // namespace pfdm

@@ -43,6 +43,7 @@ struct ProgressFigures {
   Index about_steps = 0;  ///< of the whole run, by those so far; 0: not known
   Index iteration = 0;    ///< of the step that is being made; 0: none
   std::optional<double> seconds_left{};
+  bool may_end_early = false;  ///< the time that is left is one at most
 };
 
 /// "454.3 um, 21.83 N, lower pole debonded; 26 of about 37 steps, iteration 5; 0:46 left"
@@ -60,6 +61,7 @@ struct ShownOfRun {
   std::optional<std::array<int, 2>> of_box;  ///< in their place this component of mean strain and stress
   bool damage = true;                        ///< bodies can break
   bool debonded_area = false;                ///< interfaces can open
+  bool may_end_early = false;                ///< it ends where cycles of load repeat
 };
 
 class RunProgress {

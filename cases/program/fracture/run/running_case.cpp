@@ -41,7 +41,8 @@ ShownOfRun shown_of(const RunningCase& c) {
   ShownOfRun shown{.units = read_curve_units(c.program.file, fracture.output.curve),
                    .of_box = {},
                    .damage = std::ranges::any_of(c.run.model().regions, &RegionModel::damageable),
-                   .debonded_area = !fracture.interfaces.empty()};
+                   .debonded_area = !fracture.interfaces.empty(),
+                   .may_end_early = fracture.heat && fracture.heat->cycle > 0.0};
   if (fracture.box) shown.of_box = fracture.box->component;
   return shown;
 }
