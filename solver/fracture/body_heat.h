@@ -6,8 +6,8 @@
 //
 // One-way, rises strain nothing and change no modulus. Two-way, a step feels the rises at its start, as expansion and
 // in the times of materials (cell_temperature.h): of first order in the step. Where the load has cycles and a long time
-// is looked at, a cycle that repeats stands for the time in which its mean heat changes the moduli, or then turns out to
-// have changed the heat of a cycle, by a small share. Then it is gone through again.
+// is looked at, a cycle that repeats stands for the time in which its mean heat changes the moduli, or then turns out
+// to have changed the heat of a cycle, by a small share. Then it is gone through again.
 
 #include "solver/fracture/staggered.h"
 #include "solver/heat/heat_equation.h"

@@ -32,9 +32,7 @@ class CellReconstruction {
                  const CellField<IsotropicElasticity>& sound, const CellField<char>& relaxes) {
     pressure_.take_over(moduli, g, sound, relaxes);
   }
-  void bear_closed_cracks(CellField<IsotropicElasticity>& of_stress) {
-    pressure_.bear_closed_cracks(of_stress);
-  }
+  void bear_closed_cracks(CellField<IsotropicElasticity>& of_stress) { pressure_.bear_closed_cracks(of_stress); }
 
   /// Gradients of one ring [-], with the hoop strain about an axis.
   void find_gradients(const std::vector<Vector>& u, CellField<Tensor>& gradients) const;

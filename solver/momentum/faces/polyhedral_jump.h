@@ -14,8 +14,8 @@
 // along the face between two of them in the jump term, which vanishes for a slip that is linear over the cells.
 //
 // Closed cracks in cells of any shape with a pressure have the same fault, and a pressure that varies along the crack
-// meets no stiffness there. Between two of them it is c_t + 0.2 c_n, c_n being that of the moderate lambda_s. In relaxing
-// cells it is the c_n of the relaxed material: a slip has no history.
+// meets no stiffness there. Between two of them it is c_t + 0.2 c_n, c_n being that of the moderate lambda_s. In
+// relaxing cells it is the c_n of the relaxed material: a slip has no history.
 
 #include "solver/momentum/faces/face_skeleton.h"
 
