@@ -61,7 +61,7 @@ struct FractureRun::Parts {
         sides(faces_of_sides(model.motion)),
         staggered(m, model, unknowns, given),
         settings(given),
-        residual_stiffness(model.residual_stiffness),
+        residual_stiffness(model.residual_stiffness, loading.is_proportional && !model.has_cycles()),
         heat((require_combination(mesh, model, unknowns, loading), m), model, unknowns.plane_normal) {
     relax_initial_damage();
   }
@@ -138,8 +138,9 @@ struct FractureRun::Parts {
     const std::string unstable = follows_path ? "" : spread_damage.remark(state, next, staggered);
     const std::string unresolved = rate_resolution.remark(model, state.interfaces, next.interfaces, next.load);
     state = std::move(next);
+    const double work = model.has_cycles() ? 0.0 : supplied(state.energy);  // of cycles it is mostly dissipated
     const std::string residual =
-        residual_stiffness.remark(outcome.share, std::max(outcome.starting_energy, supplied(state.energy)), state.load);
+        residual_stiffness.remark(outcome.share, std::max(outcome.starting_energy, work), state.load);
     for (const std::string& remark : {unstable, unresolved, residual, fatigue_work.remark(staggered.fatigue(), state)})
       if (!remark.empty()) remarks.push_back(remark);
     StepReport result = report(state, outcome, increment);

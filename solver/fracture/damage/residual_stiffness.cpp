@@ -27,8 +27,9 @@ bool has_collapsed(const ResidualShare& share) {
 }
 
 std::string ResidualStiffness::remark(const ResidualShare& share, double energy_before, double load) {
-  largest_ = std::max(largest_, std::max(share.elastic, energy_before) / std::abs(load));
-  if (said_ || !(share.residual / std::abs(load) > bearable * largest_)) return "";
+  const double by = is_proportional_ ? std::abs(load) : 1.0;
+  largest_ = std::max(largest_, std::max(share.elastic, energy_before) / by);
+  if (said_ || !(share.residual / by > bearable * largest_)) return "";
   said_ = true;
   const double part = share.residual / share.elastic;
   if (holds_all(share.residual, share.elastic))

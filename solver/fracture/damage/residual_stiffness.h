@@ -24,7 +24,9 @@ bool has_collapsed(const ResidualShare& share);
 /// Watches for a residual stiffness that distorts the forces.
 class ResidualStiffness {
  public:
-  explicit ResidualStiffness(double k) : k_(k) {}
+  /// `is_proportional`: loads rise in proportion to their parameter; else energies are compared as they are, as of
+  /// cycles of load.
+  explicit ResidualStiffness(double k, bool is_proportional = true) : k_(k), is_proportional_(is_proportional) {}
 
   /// The warning after a step at this load parameter; empty if there is none, and once it has been given.
   /// `energy_before` [J]: energy that the body had or was given before it broke, as a step may pass the peak and a
@@ -33,7 +35,8 @@ class ResidualStiffness {
 
  private:
   double k_;
-  double largest_ = 0.0;  // of E over the load so far: of half the force, at loads that rise in proportion
+  bool is_proportional_;
+  double largest_ = 0.0;  // of E so far; at loads that rise in proportion of E over the load, half the force
   bool said_ = false;
 };
 

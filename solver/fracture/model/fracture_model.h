@@ -120,6 +120,7 @@ struct FractureModel {
   bool has_strength() const;     ///< whether some region has a strength model
   bool has_body_force() const;   ///< whether a force or gravity is given
   bool has_eigenstrain() const;  ///< whether some region expands or has one
+  bool has_cycles() const { return fatigue_cycles.any() || (heat && heat->cycle > 0.0); }  ///< of the load
   bool is_warmed() const { return heat && heat->is_two_way; }  ///< whether rises by heat act on the body
   /// The least damage that a step from this one may end with.
   CellField<double> lower_bound(const CellField<double>& damage) const;

@@ -33,6 +33,15 @@ TEST(ResidualStiffness, OfABodyThatBreaksInOneStepIsSmallAgainstWhatItCarriedBef
               HasSubstr("through the whole body"));
 }
 
+// After a thousand cycles the load parameter, which counts them, says nothing of the force.
+TEST(ResidualStiffness, OfATiredBodyIsComparedWithItsGreatestEnergy) {
+  ResidualStiffness watch(1e-6, false);
+  EXPECT_THAT(watch.remark({.elastic = 1.0, .residual = 0.0, .traction_work = 0.0}, 1.0, 0.25), IsEmpty());
+  EXPECT_THAT(watch.remark({.elastic = 0.9, .residual = 0.019, .traction_work = 0.0}, 0.9, 1000.25), IsEmpty());
+  EXPECT_THAT(watch.remark({.elastic = 0.9, .residual = 0.09, .traction_work = 0.0}, 0.9, 2000.25),
+              HasSubstr("10 % of the elastic energy"));
+}
+
 TEST(ResidualStiffness, OfABodyThatIsInTwoFromTheBeginning) {
   ResidualStiffness watch(1e-6);
   EXPECT_THAT(watch.remark({.elastic = 1.0, .residual = 0.999, .traction_work = 0.0}, 1.0, 0.1),
