@@ -9,8 +9,8 @@
 namespace pfdm {
 namespace {
 
-constexpr double least_thickness = 1e-4;  // of a sheet, over that at rest: laws of principal stretches end at 0
-constexpr double closing_range = 0.02;    // of J below 1, over which the faces of a cell become those of a closed crack
+constexpr double least_thickness = 1e-4;   // of a sheet, over that at rest: laws of principal stretches end at 0
+constexpr double closing_pressure = 1e-3;  // over mu, at which the faces of a cell are those of a closed crack
 
 PotentialAt difference(const PotentialAt& a, const PotentialAt& b) {
   return {a.energy - b.energy, a.stress - b.stress, a.tangent - b.tangent};
@@ -216,7 +216,8 @@ Tensor FiniteCells::thinned(Index cell, const CellMechanics& mechanics, double g
 double FiniteCells::closure(Index cell, const CellMechanics& mechanics) const {
   if (!keeps_compression(cell)) return 0.0;
   const Tensor F_e = elastic(mechanics.gradient[cell], free_deformation(cell, mechanics));
-  return std::clamp(-volume_change(F_e) / closing_range, 0.0, 1.0);
+  const IsotropicElasticity& sound = material_[cell]->elasticity();
+  return std::clamp(-volume_change(F_e) * sound.bulk_modulus() / (closing_pressure * sound.mu), 0.0, 1.0);
 }
 
 void FiniteCells::advance(const CellMechanics& mechanics, const CellField<double>& g, CellHistories& to) {
