@@ -1,0 +1,34 @@
+#pragma once
+// Where a crack begins to grow, by the record alone.
+
+#include "postproc/reduction/test_record.h"
+
+#include <optional>
+
+namespace pfdm {
+
+/// The straight part of a record: from 10 to 50 % of the greatest force, on the way to it.
+struct StraightPart {
+  double compliance = not_given;  ///< C0 [m/N]
+  double origin = not_given;      ///< displacement at zero force [m]
+  double greatest_force = not_given;
+  std::size_t row_of_greatest = 0;
+  std::size_t end = 0;  ///< the row after its last
+};
+/// Throws InputError where fewer than three rows lie there, or the force does not rise.
+StraightPart straight_part(const TestRecord& record);
+
+/// Points of initiation (ASTM D5528, 12.1; E399).
+struct InitiationPoint {
+  double displacement = not_given, force = not_given;
+  std::size_t row = 0;  ///< the last one before it, or it itself
+};
+
+/// NL: where the record leaves the line for good, on the way to the greatest force: by more than 2 % of the line's
+/// force and more than three times the scatter about the line. Nothing where it does not before the greatest force.
+std::optional<InitiationPoint> nonlinearity(const TestRecord& record, const StraightPart& straight);
+
+/// 5 %/MAX: where the secant compliance is 5 % above C0, or the greatest force if that comes first.
+InitiationPoint five_percent_or_greatest(const TestRecord& record, const StraightPart& straight);
+
+}  // namespace pfdm

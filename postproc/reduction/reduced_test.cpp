@@ -1,0 +1,127 @@
+#include "postproc/reduction/reduced_test.h"
+
+#include "physics/quantity_text.h"
+#include "postproc/reduction/beam_terms.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace pfdm {
+namespace {
+
+constexpr double least_share = 0.1;         // of the greatest force: the specimen still carries
+constexpr double noticeable_origin = 0.01;  // of the displacement at the greatest force
+
+/// Where a row's crack length was read; the crack of the beginning at those before any.
+bool was_read(const TestRecord& record, std::size_t row) {
+  return !record.crack_length.empty() && std::isfinite(record.crack_length[row]);
+}
+
+std::vector<std::size_t> rows_with_growth(const TestRecord& record, std::size_t from) {
+  std::vector<std::size_t> rows;
+  for (std::size_t i = from; i < record.n_rows(); ++i)
+    if (was_read(record, i) && record.force[i] > 0.0) rows.push_back(i);
+  return rows;
+}
+
+Reduced at_point(const CalibratedMethod& method, const InitiationPoint& point, double crack_length) {
+  return method.at(point.force, point.displacement, crack_length);
+}
+
+std::vector<ReducedPoint> points_of(const CalibratedMethod& method, bool needs_lengths, const ReducedTest& test) {
+  std::vector<ReducedPoint> points;
+  const TestRecord& record = test.record;
+  for (std::size_t i = test.five_percent.row; i < record.n_rows(); ++i) {
+    if (record.force[i] < least_share * test.straight.greatest_force) continue;
+    if (needs_lengths && !was_read(record, i)) continue;
+    const Reduced found =
+        method.at(record.force[i], record.displacement[i], needs_lengths ? record.crack_length[i] : not_given);
+    if (std::isfinite(found.toughness)) points.push_back({i, found});
+  }
+  return points;
+}
+
+Propagation propagation_of(const std::vector<ReducedPoint>& points, std::size_t from) {
+  std::vector<double> lengths, values;
+  for (const ReducedPoint& p : points)
+    if (p.row > from) {
+      lengths.push_back(p.found.crack_length);
+      values.push_back(p.found.toughness);
+    }
+  Propagation found{.n_points = values.size()};
+  if (values.empty()) return found;
+  const auto n = static_cast<double>(values.size());
+  double sum = 0.0, squares = 0.0;
+  for (const double v : values) sum += v;
+  found.toughness = sum / n;
+  for (const double v : values) squares += (v - found.toughness) * (v - found.toughness);
+  if (values.size() > 1) found.deviation = std::sqrt(squares / (n - 1.0));
+  found.rise = fitted_line(lengths, values).slope;
+  return found;
+}
+
+ReducedByMethod reduced_by(const ReductionMethod& method, const CalibrationData& data, const ReducedTest& test) {
+  ReducedByMethod result{.name = method.name, .source = method.source};
+  const CalibratedMethod calibrated = method.calibrate(data);
+  result.missing = calibrated.missing;
+  if (!calibrated.at) return result;
+  const double a0 = data.specimen.crack_length;
+  result.constants = calibrated.constants;
+  if (test.nonlinearity) result.nonlinearity = at_point(calibrated, *test.nonlinearity, a0);
+  result.five_percent = at_point(calibrated, test.five_percent, a0);
+  if (test.visual) result.visual = at_point(calibrated, *test.visual, test.record.crack_length[test.visual->row]);
+  result.points = points_of(calibrated, method.needs_crack_lengths, test);
+  result.propagation = propagation_of(result.points, test.straight.row_of_greatest);
+  return result;
+}
+
+void remark_on(ReducedTest& test) {
+  const double reach = test.record.displacement[test.straight.row_of_greatest];
+  if (std::abs(test.straight.origin) > noticeable_origin * std::abs(reach))
+    test.remarks.push_back(
+        fmt::format("the straight part of the record meets zero force at {}: toe or offset in "
+                    "[experiment] takes that out",
+                    quantity_text(test.straight.origin, "m")));
+  if (test.straight.row_of_greatest + 1 == test.record.n_rows())
+    test.remarks.emplace_back("the force still rises at the end of the record: nothing is known of propagation");
+}
+
+}  // namespace
+
+ReducedTest reduced_test(const ReducedSpecimen& specimen, TestRecord record, const TestDimensions& dimensions,
+                         std::string name) {
+  ReducedTest test{
+      .name = std::move(name), .specimen = std::string(specimen.name), .record = std::move(record), .straight = {}};
+  test.straight = straight_part(test.record);
+  test.nonlinearity = nonlinearity(test.record, test.straight);
+  test.five_percent = five_percent_or_greatest(test.record, test.straight);
+  const std::size_t begin =
+      std::min(test.nonlinearity ? test.nonlinearity->row : test.five_percent.row, test.five_percent.row);
+  const CalibrationData data{test.record, dimensions, test.straight, rows_with_growth(test.record, begin)};
+  if (!data.grown.empty()) {
+    const std::size_t row = data.grown.front();
+    test.visual = InitiationPoint{test.record.displacement[row], test.record.force[row], row};
+  }
+  for (const ReductionMethod& method : specimen.methods()) test.methods.push_back(reduced_by(method, data, test));
+  remark_on(test);
+  return test;
+}
+
+double best_toughness(const ReducedTest& test) {
+  for (const ReducedByMethod& method : test.methods)
+    if (method.propagation.n_points >= 3) return method.propagation.toughness;
+  for (const ReducedByMethod& method : test.methods)
+    if (std::isfinite(method.five_percent.toughness)) return method.five_percent.toughness;
+  return not_given;
+}
+
+double constant_of(const ReducedTest& test, std::string_view name) {
+  for (const ReducedByMethod& method : test.methods)
+    for (const ReductionConstant& constant : method.constants)
+      if (constant.name == name) return constant.value;
+  return not_given;
+}
+
+}  // namespace pfdm
