@@ -30,6 +30,9 @@ inline constexpr CommandText case_commands[] = {
      "table.csv. Their heads say what each figure rests on."},
     {"compare", "Compare the results of a run with the experiment that the case names in [experiment]",
      "Writes to CASE/results: comparison.json, comparison.csv."},
+    {"reduce", "Reduce the records of a fracture test to energy release rates, as the standards of its specimen do",
+     "Needs no run. Writes to CASE/results: reduction.json (methods, corrections, G at initiation and in propagation,\n"
+     "beside the toughness of a fit) and reduction.csv (G and crack length by point)."},
     {"fit", "Estimate the values that the case names in [fit] from its experiment",
      "Writes to CASE/results: fit.json, the fitted case case.fitted.toml and curves. The last line is the\nverdict: "
      "sound (with correlated residuals, within the error of mesh and steps), questionable or failed;\n"
@@ -60,9 +63,9 @@ inline constexpr CommandText case_commands[] = {
 };
 
 inline constexpr CommandText other_commands[] = {
-    {"init", "Make a new case directory from an existing case",
+    {"init", "Make a new case directory from an existing case, or of a standard specimen and its test",
      "Writes to DIR: case.toml, the data files that it names, a README.md to be filled in; no results.\n"
-     "Without --like it lists the cases to choose from."},
+     "Without --like it lists the cases to choose from; --specimen alone lists the specimens."},
     {"list", "List the cases that ship: name, kind, what a run here has taken, title", "Writes no files."},
     {"help", "Say what a command does, as COMMAND --help, or what a key of case.toml is", "Writes no files."},
     {"completion", "Print a script that completes words in bash or zsh",

@@ -165,6 +165,26 @@ void Parser::add_other_options() {
   command("init")
       .add_option("--like", line.like, "the case to start from: a directory, or the name of a case that ships")
       ->type_name("CASE");
+  command("init")
+      .add_option(
+          "--specimen", line.specimen,
+          "a standard specimen in place of a case, as double_cantilever_beam; alone: which there are, and their "
+          "dimensions with defaults")
+      ->expected(0, 1)
+      ->type_name("NAME")
+      ->excludes("--like");
+  command("init")
+      .add_option("--data", line.records, "CSV file of the testing machine; may be repeated: one for each specimen")
+      ->check(not_empty())
+      ->type_name("FILE")
+      ->allow_extra_args(false)
+      ->needs("--specimen");
+  command("init")
+      .add_option("--set", line.set,
+                  "a dimension or property of the specimen, as in --set \"width=20 mm\"; may be repeated")
+      ->type_name("NAME=VALUE")
+      ->allow_extra_args(false)
+      ->needs("--specimen");
   command("list").add_flag("--laws", line.laws, "list laws, boundary conditions and generators instead");
   command("help")
       .add_option("COMMAND", line.case_directory, "the command, or a key, as toughness or materials.poisson_ratio")

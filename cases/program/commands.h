@@ -31,12 +31,14 @@ struct CommandLine {
   std::optional<std::string> prepared{};
   ExportWords exports{};  ///< of cohesive
   SensitivityWords sensitivity{};
-  std::string new_directory;  ///< of init
-  std::string like;           ///< of init: a case
-  std::string shell;          ///< of completion
-  bool schema = false;        ///< of help
-  std::string reference;      ///< of help: a folder for its pages
-  std::string key;            ///< of help: no command, so a key of case.toml
+  std::string new_directory;              ///< of init
+  std::string like;                       ///< of init: a case
+  std::optional<std::string> specimen{};  ///< of init: a standard specimen; empty: which there are
+  std::vector<std::string> records{};     ///< of init: CSV files of its test
+  std::string shell;                      ///< of completion
+  bool schema = false;                    ///< of help
+  std::string reference;                  ///< of help: a folder for its pages
+  std::string key;                        ///< of help: no command, so a key of case.toml
 };
 
 /// Nothing if help or the version was asked for and written to `out`. Throws InputError that names what was meant.

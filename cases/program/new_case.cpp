@@ -27,15 +27,6 @@ std::string way_to(const fs::path& file, const fs::path& folder) {
   return whole(file).lexically_relative(whole(folder)).string();
 }
 
-void require_empty(const fs::path& directory) {
-  if (!fs::exists(directory)) return;
-  if (!fs::is_directory(directory))
-    throw InputError(fmt::format("{}: this is a file; a new directory is required", directory.string()));
-  if (!fs::is_empty(directory))
-    throw InputError(
-        fmt::format("{}: the directory is not empty; a new case goes into a new directory", directory.string()));
-}
-
 /// Data files of an old case, and where they go in the new one.
 struct DataCopies {
   std::map<fs::path, fs::path> places;
@@ -143,6 +134,15 @@ std::string copy_steps(const CaseFile& chain, const fs::path& directory) {
 }
 
 }  // namespace
+
+void require_empty(const fs::path& directory) {
+  if (!fs::exists(directory)) return;
+  if (!fs::is_directory(directory))
+    throw InputError(fmt::format("{}: this is a file; a new directory is required", directory.string()));
+  if (!fs::is_empty(directory))
+    throw InputError(
+        fmt::format("{}: the directory is not empty; a new case goes into a new directory", directory.string()));
+}
 
 void make_case(const fs::path& directory, const fs::path& like, std::ostream& out) {
   require_empty(directory);

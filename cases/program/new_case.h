@@ -11,4 +11,7 @@ namespace pfdm {
 /// Throws InputError if the directory holds something already, or if `like` is no case.
 void make_case(const std::filesystem::path& directory, const std::filesystem::path& like, std::ostream& out);
 
+/// Throws InputError if `directory` is a file, or a folder that holds something.
+void require_empty(const std::filesystem::path& directory);
+
 }  // namespace pfdm

@@ -14,6 +14,7 @@
 #include "cases/program/session/terminal/external_program.h"
 #include "cases/program/session/terminal/message_text.h"
 #include "cases/program/session/terminal/stop_signal.h"
+#include "cases/program/specimens/new_specimen.h"
 #include "cases/program/studies/sweep/comparison_page.h"
 #include "cases/program/studies/sweep/sweep_on_slurm.h"
 #include "postproc/files/atomic_file.h"
@@ -72,11 +73,10 @@ void say_next(const CommandLine& line, const RunnableCase& runnable, Log& log) {
 
 const std::function<void(Session&)>& job_of(const CommandLine& line, const RunnableCase& runnable) {
   const std::pair<const char*, const std::function<void(Session&)>*> jobs[] = {
-      {"run", &runnable.run},         {"check", &runnable.check},
-      {"mesh", &runnable.mesh},       {"cohesive", &runnable.cohesive},
-      {"compare", &runnable.compare}, {"fit", &runnable.fit},
-      {"sweep", &runnable.sweep},     {"sensitivity", &runnable.sensitivity},
-      {"analyse", &runnable.analyse}, {"report", &runnable.report}};
+      {"run", &runnable.run},           {"check", &runnable.check},     {"mesh", &runnable.mesh},
+      {"cohesive", &runnable.cohesive}, {"compare", &runnable.compare}, {"reduce", &runnable.reduce},
+      {"fit", &runnable.fit},           {"sweep", &runnable.sweep},     {"sensitivity", &runnable.sensitivity},
+      {"analyse", &runnable.analyse},   {"report", &runnable.report}};
   for (const auto& [command, job] : jobs)
     if (line.command == command && *job) return *job;
   throw InputError(fmt::format("{}: this kind of case has no \"{}\"", line.case_directory, line.command));
@@ -157,7 +157,21 @@ void do_case(const CommandLine& line, std::ostream& out, std::ostream& err, bool
   }
 }
 
+void do_specimen(const CommandLine& line, std::ostream& out) {
+  if (line.specimen->empty()) return list_specimens(shipped_cases(), out);
+  if (line.new_directory.empty()) return list_specimen_values(shipped_cases(), *line.specimen, out);
+  require_empty(line.new_directory);
+  make_specimen({.directory = line.new_directory,
+                 .specimen = *line.specimen,
+                 .records = {line.records.begin(), line.records.end()},
+                 .set = line.set,
+                 .cases = shipped_cases(),
+                 .called_as = called_as()},
+                out);
+}
+
 void do_init(const CommandLine& line, std::ostream& out) {
+  if (line.specimen) return do_specimen(line, out);
   if (line.like.empty() || line.new_directory.empty()) {
     list_cases(shipped_cases(), out);
     throw InputError(

@@ -96,7 +96,7 @@ set(rooms
      cases/program/input cases/program/session cases/program/studies"
     "cases/program/fracture/body: physics mesh mesh/search mesh/surfaces mesh/generators mesh/files solver/momentum solver/fracture postproc/files
      cases/program/input"
-    "cases/program/fracture/case: physics mesh mesh/files solver/heat solver/momentum solver/fracture postproc/files postproc/fields
+    "cases/program/fracture/case: physics mesh mesh/files solver/heat solver/momentum solver/fracture postproc/reduction postproc/files postproc/fields
      postproc/curves postproc/cohesive cases/program/input cases/program/session cases/program/studies cases/program/fracture/body"
     "cases/program/fracture/outcome: physics mesh solver/heat solver/momentum solver/fracture postproc/files postproc/fields
      postproc/curves postproc/cohesive postproc/exports postproc/page postproc/browser cases/program/input cases/program/session
@@ -104,13 +104,15 @@ set(rooms
     "cases/program/fracture/page: physics mesh solver/fracture postproc/files postproc/fields postproc/curves postproc/cohesive
      postproc/page postproc/browser cases/program/input cases/program/session cases/program/studies cases/program/fracture/case
      cases/program/fracture/outcome"
-    "cases/program/fracture/run: physics mesh solver/heat solver/fracture postproc/files postproc/fields postproc/curves
+    "cases/program/fracture/run: physics mesh solver/heat solver/fracture postproc/reduction postproc/files postproc/fields postproc/curves
      postproc/cohesive postproc/page postproc/browser cases/program/input cases/program/session cases/program/studies cases/program/fracture/case
      cases/program/fracture/outcome cases/program/fracture/page"
-    "cases/program/fracture: physics mesh mesh/surfaces mesh/generators mesh/files solver/heat solver/momentum solver/fracture postproc/files
+    "cases/program/fracture: physics mesh mesh/surfaces mesh/generators mesh/files solver/heat solver/momentum solver/fracture postproc/reduction postproc/files
      postproc/fields postproc/curves postproc/cohesive postproc/exports postproc/page postproc/browser cases/program/input cases/program/session
      cases/program/studies cases/program/fracture/body cases/program/fracture/case
      cases/program/fracture/outcome cases/program/fracture/page cases/program/fracture/run"
+    "cases/program/specimens: physics solver/fracture postproc/files postproc/curves postproc/reduction cases/program/input
+     cases/program/session cases/program/studies cases/program/fracture"
     "cases/cpp: physics mesh mesh/generators solver/fracture cases/program/fracture"
     "cases/program/plate: physics mesh solver solver/linear solver/scalar solver/momentum solver/dynamics solver/calibration
      postproc/files postproc/fields postproc/curves postproc/vibration postproc/page cases/program/input cases/program/session
@@ -120,9 +122,9 @@ set(rooms
     "cases/python/extension: physics mesh mesh/files solver solver/fracture solver/homogenization solver/point solver/vibration
      postproc/files postproc/curves postproc/fields postproc/point cases/program/input cases/program/point cases/program/vibration cases/program/fracture
      cases/program/homogenization"
-    "cases/program: physics solver postproc/files postproc/curves postproc/exports
+    "cases/program: physics solver postproc/reduction postproc/files postproc/curves postproc/exports
      cases/program/input cases/program/reference cases/program/session cases/program/studies cases/program/point cases/program/viscoelastic
-     cases/program/vibration cases/program/fracture cases/program/homogenization cases/program/plate cases/program/chain")
+     cases/program/vibration cases/program/specimens cases/program/fracture cases/program/homogenization cases/program/plate cases/program/chain")
 set(complaints "")
 
 set(open_folders physics solver/momentum solver/fracture solver/vibration postproc/exports cases/program/input cases/program/session

@@ -5,6 +5,7 @@
 #include "cases/program/fracture/case/run_keys.h"
 #include "cases/program/fracture/fracture_check.h"
 #include "cases/program/fracture/fracture_laws.h"
+#include "cases/program/fracture/fracture_reduction.h"
 #include "cases/program/fracture/other_laws.h"
 #include "cases/program/fracture/outcome/fracture_cohesive.h"
 #include "cases/program/fracture/outcome/fracture_comparison.h"
@@ -222,6 +223,7 @@ void fit(const FractureProgram& program, Session& session) {
              .hash = program.hash,
              .title = program.fracture.title},
             session);
+  if (program.reduction) reduce_tests(program, session);
 }
 
 CasePage page_of(const FractureProgram& program, const Session& session) {
@@ -256,9 +258,15 @@ RunnableCase read_program(const CaseFile& file) {
   auto program = std::make_shared<FractureProgram>(FractureProgram{.file = file});
   program->fracture = read_fracture_case(file.config.root(), file.directory);
   program->experiment = read_experiment(file.config.root(), file.directory);
+  program->reduction = read_reduction(file.config.root(), file.directory);
   program->fit = read_curve_fit(file);
   RunnableCase found = runnable(program);
   found.compare = [program](Session& session) { compare(*program, session); };
+  found.reduce = [program](Session& session) { reduce_tests(*program, session); };
+  if (!program->reduction)
+    found.reduce = job_without_table(file, "experiment.reduction",
+                                     "the specimen and its dimensions; its records stand in [experiment]",
+                                     "double_cantilever_beam_fit");
   found.fit = [program](Session& session) { fit(*program, session); };
   found.sensitivity = [program](Session& session) { sensitivity(*program, session); };
   if (!program->fit)

@@ -22,6 +22,7 @@ struct RunnableCase {
   std::function<void(Session&)> run{};
   std::function<void(Session&)> cohesive{};         ///< traction-separation laws from the results
   std::function<void(Session&)> compare{};          ///< results against experiments
+  std::function<void(Session&)> reduce{};           ///< records of fracture tests, as standards do
   std::function<void(Session&)> fit{};              ///< estimates the parameters that the case names
   std::function<void(Session&)> sweep{};            ///< runs with the sets of values that the case names
   std::function<void(Session&)> sensitivity{};      ///< of its curve to its parameters

@@ -16,7 +16,7 @@ namespace pfdm {
 namespace {
 
 constexpr Range number_range{1.0, 1000.0, false, "between 1 and 1000"};
-constexpr Range fall_range{0.0, 1.0, true, "above 0 and below 1"};
+constexpr Range least_fall_range{0.0, 1.0, true, "above 0 and below 1"};
 
 KeyTable measured_keys(std::string_view name, const Dimension& due) {
   using namespace keys;
@@ -176,7 +176,7 @@ const KeyTable& event_keys() {
                    "Number of the jump along the curve, measured and computed, of those with least_fall.",
                    "the nearest one; of those to be found the largest")),
                of_jumps(stored<&MeasuredEvent::least_fall>(
-                   "least_fall", number(fall_range),
+                   "least_fall", number(least_fall_range),
                    "Share of the largest force by which the force falls in one step of a jump.")),
                {"displacement", keys::table(measured_length_keys), "of a jump found in the record; of others no datum",
                 "Displacement of the event, with its standard deviation."},

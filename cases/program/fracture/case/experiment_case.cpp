@@ -89,10 +89,26 @@ SampledCurve read_curve_of(const ConfigTable& table, const std::filesystem::path
   return curve;
 }
 
-MeasuredCurve read_specimen(const ConfigTable& table, const ConfigTable& of_all,
-                            const std::filesystem::path& directory) {
+/// Displacement, force and crack length, where it is not NaN.
+SampledCurve read_crack_lengths(const ConfigTable& table, const std::filesystem::path& directory) {
+  constexpr double none = -1.0;  // keeps a row whose crack was not read
+  const CsvTable file = read_csv_of(table, directory);
+  SampledCurve curve{.name = read_name_of_curve(table),
+                     .x = read_values(table.table("displacement"), file, dimension::length),
+                     .y = read_values(table.table("force"), file, dimension::force)};
+  if (table.has("crack_length")) curve.deviation = read_values(table.table("crack_length"), file, dimension::length);
+  for (double& length : curve.deviation)
+    if (std::isnan(length)) length = none;
+  std::vector<std::vector<double>*> used{&curve.x, &curve.y};
+  if (!curve.deviation.empty()) used.push_back(&curve.deviation);
+  leave_out_gaps(table, used);
+  for (double& length : curve.deviation)
+    if (!(length > 0.0)) length = std::nan("");
+  return curve;
+}
+
+MeasuredCurve prepared_curve(const ConfigTable& table, const ConfigTable& of_all, const SampledCurve& recorded) {
   const Defaults keys(table, of_all);
-  const SampledCurve recorded = read_curve_of(table, directory, "force", dimension::force);
   if (std::ranges::all_of(recorded.y, [](double force) { return force == 0.0; }))
     throw table.at("force").error("all forces are zero; there is nothing to compare with");
   const Preparation preparation = read_preparation(keys);
@@ -101,6 +117,11 @@ MeasuredCurve read_specimen(const ConfigTable& table, const ConfigTable& of_all,
   specimen.displacement_factor = factor_of(table.table("displacement"));
   specimen.force_factor = factor_of(table.table("force"));
   return specimen;
+}
+
+MeasuredCurve read_specimen(const ConfigTable& table, const ConfigTable& of_all,
+                            const std::filesystem::path& directory) {
+  return prepared_curve(table, of_all, read_curve_of(table, directory, "force", dimension::force));
 }
 
 MeasuredAngle read_angle(const ConfigTable& table, const std::filesystem::path& directory) {
@@ -139,6 +160,11 @@ std::vector<SampledCurve> specimen_curves(const ExperimentSettings& experiment) 
   std::vector<SampledCurve> curves;
   for (const MeasuredCurve& specimen : experiment.specimens) curves.push_back(specimen.of_specimen());
   return curves;
+}
+
+MeasuredCurve read_fracture_test(const ConfigTable& specimen, const ConfigTable& experiment,
+                                 const std::filesystem::path& case_directory) {
+  return prepared_curve(specimen, experiment, read_crack_lengths(specimen, case_directory));
 }
 
 std::vector<SetUp> read_set_ups(const ConfigTable& root) {

@@ -48,6 +48,11 @@ struct ExperimentSettings {
 /// The specimens' own curves.
 std::vector<SampledCurve> specimen_curves(const ExperimentSettings& experiment);
 
+/// The record of one of the specimens with the crack lengths [m] that were read beside it as its `deviation`: NaN where
+/// there is none, or none at all. Throws InputError like read_experiment.
+MeasuredCurve read_fracture_test(const ConfigTable& specimen, const ConfigTable& experiment,
+                                 const std::filesystem::path& case_directory);
+
 /// What the set-up adds to each specimen's curve, alone. Throws InputError like read_experiment.
 std::vector<SetUp> read_set_ups(const ConfigTable& root);
 

@@ -1,5 +1,6 @@
 #include "cases/program/fracture/case/event_case.h"
 #include "cases/program/fracture/case/experiment_case.h"
+#include "cases/program/fracture/case/reduction_case.h"
 #include "cases/program/fracture/case/run_keys.h"
 #include "cases/program/input/config/csv_keys.h"
 
@@ -49,7 +50,10 @@ const KeyTable& specimen_keys() {
   static const KeyTable table{
       .name = "experiment.specimens[]",
       .sentence = "A measured force-displacement curve.",
-      .keys = keys::joined({curve_columns("force", "Column of the force."), preparation_rows()})};
+      .keys = keys::joined({curve_columns("force", "Column of the force."),
+                            {{"crack_length", keys::table(scaled_column_keys), "none",
+                              "Column of crack lengths from the load line, for data reduction; empty where not read."}},
+                            preparation_rows()})};
   return table;
 }
 
@@ -88,6 +92,8 @@ const KeyTable& experiment_keys() {
             {"specimens", tables(specimen_keys), "", "Measured force-displacement curves, one for each specimen."},
             {"debonding", tables(debonding_keys), "none", "Measured debonding angles of a particle."},
             {"events", tables(event_keys), "none", "Events of the curves, with standard deviations of their own."},
+            {"reduction", keys::table(reduction_keys), "none",
+             "Specimen of a fracture test, whose records are reduced to energy release rates."},
             {"energies", tables(energy_keys), "none", "Energies with which those of the run are compared."}},
            preparation_rows()})};
   return table;

@@ -3,6 +3,7 @@
 
 #include "cases/program/fracture/case/experiment_case.h"
 #include "cases/program/fracture/case/fracture_case.h"
+#include "cases/program/fracture/case/reduction_case.h"
 #include "cases/program/fracture/outcome/fracture_results.h"
 #include "cases/program/fracture/run/live_page.h"
 #include "cases/program/session/terminal/followed_rows.h"
@@ -28,6 +29,7 @@ struct FractureProgram {
   CaseFile file;
   FractureCase fracture{};
   std::optional<ExperimentSettings> experiment{};
+  std::optional<ReductionSettings> reduction{};
   std::optional<CurveFitSettings> fit{};
   std::string name{};
   std::string hash{};

@@ -51,6 +51,22 @@ double Expression::operator()(const Vector& x, double t) const {
   return value;
 }
 
+double evaluated(const std::string& text, const std::map<std::string, double>& variables) {
+  try {
+    mu::Parser parser;
+    for (const auto& [name, value] : variables) parser.DefineConst(name, value);
+    parser.DefineConst("pi", std::numbers::pi);
+    parser.DefineFun("ceil", static_cast<double (*)(double)>(std::ceil));
+    parser.DefineFun("floor", static_cast<double (*)(double)>(std::floor));
+    parser.SetExpr(text);
+    const double value = parser.Eval();
+    if (!std::isfinite(value)) throw InputError(fmt::format("the expression \"{}\" is {}", text, value));
+    return value;
+  } catch (const mu::Parser::exception_type& error) {
+    throw InputError(fmt::format("the expression \"{}\" cannot be read: {}", text, error.GetMsg()));
+  }
+}
+
 bool Expression::uses_load() const {
   const std::lock_guard lock(parsed_->one_at_a_time);
   return parsed_->parser.GetUsedVar().contains("t");

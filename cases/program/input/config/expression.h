@@ -3,6 +3,7 @@
 
 #include "physics/tensor.h"
 
+#include <map>
 #include <memory>
 #include <string>
 
@@ -22,5 +23,9 @@ class Expression {
   struct Parsed;
   std::shared_ptr<Parsed> parsed_;
 };
+
+/// Of a formula in variables of other names, with pi, the usual functions, ceil and floor. Throws InputError that says
+/// what is wrong with the text, or that its value is not finite.
+double evaluated(const std::string& text, const std::map<std::string, double>& variables);
 
 }  // namespace pfdm

@@ -1,0 +1,241 @@
+#include "cases/program/specimens/new_specimen.h"
+
+#include "cases/program/fracture/case/experiment_case.h"
+#include "cases/program/fracture/case/reduction_case.h"
+#include "cases/program/input/config/toml_document.h"
+#include "cases/program/specimens/measured_record.h"
+#include "cases/program/specimens/specimen_text.h"
+#include "physics/error.h"
+#include "physics/quantity_text.h"
+#include "postproc/files/atomic_file.h"
+#include "postproc/files/text_file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace pfdm {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double noticeable_origin = 0.01;                // of the displacement at the greatest force
+constexpr double straight_from = 0.1, straight_to = 0.5;  // of the greatest force
+
+/// What the records say, before the case is written.
+struct RecordFindings {
+  std::vector<StraightPart> straight{};
+  std::vector<ReducedTest> reduced{};  ///< where the specimen has data reduction
+  double reach = 0.0;                  ///< largest displacement [m]
+};
+
+std::string experiment_text(const std::vector<MeasuredRecord>& records, const std::string& straight_keys,
+                            const std::string& reduction) {
+  std::string text = "[experiment]\n" + straight_keys + "\n";
+  if (!reduction.empty()) text += reduction + "\n";
+  for (const MeasuredRecord& record : records) text += record.text + "\n";
+  return text;
+}
+
+RecordFindings findings_of(const std::string& text, bool has_reduction) {
+  const Config config(text, "the record");
+  RecordFindings found;
+  std::vector<TestRecord> records;
+  if (has_reduction) {
+    const ReductionSettings settings = *read_reduction(config.root(), "/");
+    records = settings.records;
+    found.reduced = reduced_tests(settings);
+  } else {
+    for (const SampledCurve& curve : specimen_curves(*read_experiment(config.root(), "/")))
+      records.push_back({.displacement = curve.x, .force = curve.y});
+  }
+  for (const TestRecord& record : records) {
+    found.straight.push_back(straight_part(record));
+    found.reach = std::max(found.reach, record.displacement.back());
+  }
+  return found;
+}
+
+/// Where the straight part of the first record lies, and the toe where it misses the origin.
+std::string straight_keys(const RecordFindings& found, const std::string& keys) {
+  const StraightPart& straight = found.straight.front();
+  const auto at = [&](double share) { return straight.compliance * share * straight.greatest_force; };
+  const double origin = keys.empty() ? straight.origin : 0.0;
+  std::string text =
+      fmt::format("stiffness_between = [\"{}\", \"{}\"]   # from 10 to 50 % of the greatest force\n",
+                  quantity_text(origin + at(straight_from), "m"), quantity_text(origin + at(straight_to), "m"));
+  return text + keys;
+}
+
+std::string toe_of(const RecordFindings& found) {
+  const StraightPart& straight = found.straight.front();
+  const double reach = straight.compliance * straight.greatest_force;
+  if (std::abs(straight.origin) < noticeable_origin * reach) return "";
+  return fmt::format("toe = [\"{}\", \"{}\"]          # the straight part gives the origin: it was at {}\n",
+                     quantity_text(straight_from * straight.greatest_force, "N"),
+                     quantity_text(straight_to * straight.greatest_force, "N"), quantity_text(straight.origin, "m"));
+}
+
+double guessed(const SpecimenValue& value, const std::vector<ReducedTest>& tests) {
+  double sum = 0.0;
+  for (const ReducedTest& test : tests)
+    sum += value.guess == "toughness" ? best_toughness(test) : constant_of(test, value.guess);
+  return sum / static_cast<double>(tests.size());
+}
+
+void guess_all(const SpecimenFile& specimen, const RecordFindings& found, SpecimenWords& words, std::ostream& out) {
+  if (found.reduced.empty()) return;
+  for (const SpecimenValue& value : specimen.values) {
+    if (value.guess.empty() || words.is_given[value.name]) continue;
+    guess(words, value, guessed(value, found.reduced));
+    out << fmt::format("  {}: {} by data reduction, the first guess\n", value.name, words.texts[value.name]);
+  }
+}
+
+std::string commented(const std::string& text) {
+  std::string result;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t end = std::min(text.find('\n', at), text.size());
+    const std::string line = text.substr(at, end - at);
+    result += (line.empty() ? "" : "# " + line) + "\n";
+    at = end + 1;
+  }
+  return result;
+}
+
+std::vector<std::string> file_names(const std::vector<fs::path>& records) {
+  std::vector<std::string> names;
+  for (const fs::path& record : records) {
+    std::string name = "data/" + record.filename().string();
+    for (int n = 2; std::ranges::count(names, name) > 0; ++n)
+      name = fmt::format("data/{}_{}{}", record.stem().string(), n, record.extension().string());
+    names.push_back(name);
+  }
+  return names;
+}
+
+std::vector<MeasuredRecord> recognised_all(const SpecimenRequest& request, const std::vector<std::string>& files,
+                                           const std::map<std::string, std::string>& columns) {
+  std::vector<MeasuredRecord> records;
+  for (std::size_t i = 0; i < files.size(); ++i)
+    records.push_back(recognised(request.records[i], files[i], fs::path(files[i]).stem().string(), columns));
+  return records;
+}
+
+/// The same where the files are now.
+std::vector<MeasuredRecord> in_place(std::vector<MeasuredRecord> records, const SpecimenRequest& request) {
+  for (std::size_t i = 0; i < records.size(); ++i) {
+    const std::string named = fmt::format("csv = {}", quoted_toml(records[i].file));
+    records[i].text.replace(records[i].text.find(named), named.size(),
+                            fmt::format("csv = {}", quoted_toml(fs::absolute(request.records[i]).string())));
+  }
+  return records;
+}
+
+/// [experiment] of the records and what they say; none of both without records.
+struct Measured {
+  std::string text{};
+  RecordFindings found{};
+};
+
+Measured measured(const std::vector<MeasuredRecord>& records, const SpecimenRequest& request,
+                  const std::string& reduction) {
+  const std::vector<MeasuredRecord> here = in_place(records, request);
+  std::string keys = "stiffness_between = [\"0 m\", \"1 m\"]\n";
+  RecordFindings found = findings_of(experiment_text(here, keys, reduction), !reduction.empty());
+  const std::string toe = toe_of(found);
+  keys = straight_keys(found, toe);
+  if (!toe.empty()) found = findings_of(experiment_text(here, keys, reduction), !reduction.empty());
+  return {experiment_text(records, keys, reduction), found};
+}
+
+std::string unmeasured(const std::string& reduction) {
+  const MeasuredRecord example{.file = "data/record.csv",
+                               .text =
+                                   "[[experiment.specimens]]\nname = \"specimen 1\"\ncsv = \"data/record.csv\"\n"
+                                   "displacement = { column = \"Displacement\", unit = \"mm\" }\n"
+                                   "force = { column = \"Load\", unit = \"N\" }\n",
+                               .remarks = {}};
+  return experiment_text({example}, "stiffness_between = [\"0.1 mm\", \"1 mm\"]\n", reduction);
+}
+
+std::string schema_line(const SpecimenRequest& request) {
+  const fs::path schema = fs::weakly_canonical(request.cases / "case.schema.json");
+  return fmt::format("#:schema {}\n",
+                     schema.lexically_relative(fs::weakly_canonical(fs::absolute(request.directory))).string());
+}
+
+void write_all(const SpecimenRequest& request, const std::vector<std::string>& files, const std::string& text,
+               const std::string& readme) {
+  make_folder(request.directory);
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    const fs::path place = request.directory / files[i];
+    make_folder(place.parent_path());
+    write_file(place, read_file(request.records[i]));
+  }
+  const std::string name = fs::weakly_canonical(fs::absolute(request.directory)).filename().string();
+  write_file(request.directory / "README.md", fmt::format("# {}\n\n{}", name, readme));
+  write_file(request.directory / "case.toml", text);
+}
+
+}  // namespace
+
+void make_specimen(const SpecimenRequest& request, std::ostream& out) {
+  const SpecimenFile specimen = read_specimen_file(request.cases, request.specimen);
+  std::map<std::string, std::string> columns;
+  SpecimenWords words = specimen_words(specimen, request.set, column_words(), columns);
+  const std::vector<std::string> files = file_names(request.records);
+  const std::vector<MeasuredRecord> records = recognised_all(request, files, columns);
+  const bool has_record = !records.empty();
+  if (!has_record && !columns.empty())
+    throw InputError(
+        fmt::format("--set {}: there is no record whose column it is; --data FILE names one", columns.begin()->first));
+  std::ostringstream said;
+  Measured test;
+  if (has_record) {
+    test = measured(records, request, filled(specimen.reduction, words));
+    for (const MeasuredRecord& record : records)
+      for (const std::string& remark : record.remarks) said << fmt::format("  {}: {}\n", record.file, remark);
+    guess_all(specimen, test.found, words, said);
+  }
+  words.numbers["has_record"] = has_record ? 1.0 : 0.0;
+  words.numbers["reach"] = test.found.reach;
+  words.numbers["straight_end"] =
+      has_record ? test.found.straight.front().compliance * straight_to * test.found.straight.front().greatest_force
+                 : 0.0;
+  derive(specimen, words);
+  const std::string fit = filled(specimen.fit_text, words);
+  std::string text = schema_line(request) + filled(specimen.case_text, words) + "\n";
+  text += has_record ? test.text + fit
+                     : "# With a record of the test in data/, without the signs of comment:\n\n" +
+                           commented(unmeasured(filled(specimen.reduction, words)) + fit);
+  write_all(request, files, text, filled(specimen.readme, words));
+  const std::string place = request.directory.string();
+  out << fmt::format("made {} of {} ({}): case.toml, README.md", place, specimen.name, specimen.standard);
+  for (const std::string& file : files) out << ", " << file;
+  out << '\n' << said.str();
+  if (has_record)
+    out << fmt::format("next: {0} fit {1}\n      {0} cohesive {1}/results/case.fitted.toml --export abaqus\n",
+                       request.called_as, place);
+  else
+    out << fmt::format("next: {0} run {1}\n", request.called_as, place);
+}
+
+void list_specimens(const fs::path& cases, std::ostream& out) {
+  for (const std::string& name : specimen_names(cases)) {
+    const SpecimenFile specimen = read_specimen_file(cases, name);
+    out << fmt::format("{:<24} {} ({})\n", name, specimen.title, specimen.standard);
+    list_specimen_values(cases, name, out);
+  }
+  out << "\nas in: pfdm init my_test --specimen double_cantilever_beam --data record.csv --set \"width=20 mm\"\n";
+}
+
+void list_specimen_values(const fs::path& cases, const std::string& name, std::ostream& out) {
+  for (const SpecimenValue& value : read_specimen_file(cases, name).values)
+    out << fmt::format("    {:<20} {:<12} {}{}\n", value.name, value.text, value.what,
+                       value.guess.empty() ? "" : " With a record: by data reduction.");
+}
+
+}  // namespace pfdm
