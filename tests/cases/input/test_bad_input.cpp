@@ -193,7 +193,7 @@ TEST(BadInput, ResultsFolderWithoutAName) {
 
 TEST(BadInput, UnknownCommand) {
   EXPECT_EQ(run({"rn", "case"}).err,
-            "pfdm: unknown command \"rn\"; did you mean \"run\"? (available: run, check, mesh, cohesive, compare, fit, "
+            "pfdm: unknown command \"rn\"; did you mean \"run\"? (available: run, check, mesh, cohesive, compare, reduce, fit, "
             "sweep, sensitivity, analyse, report, init, list, help, completion, test)\n");
 }
 
