@@ -12,6 +12,7 @@ namespace pfdm {
 namespace {
 
 constexpr double least_share = 0.1;         // of the greatest force: the specimen still carries
+constexpr double noticeable_factor = 0.99;  // F
 constexpr double noticeable_origin = 0.01;  // of the displacement at the greatest force
 
 /// Where a row's crack length was read; the crack of the beginning at those before any.
@@ -77,6 +78,20 @@ ReducedByMethod reduced_by(const ReductionMethod& method, const CalibrationData&
   return result;
 }
 
+/// Of a double cantilever beam without end blocks.
+void remark_on_large_displacement(ReducedTest& test, const TestDimensions& s) {
+  if (test.specimen != "double_cantilever_beam" || !std::isnan(s.block_offset)) return;
+  double least = 1.0;
+  for (std::size_t i = 0; i < test.record.n_rows(); ++i)
+    if (was_read(test.record, i))
+      least = std::min(least, large_displacement_factor(test.record.displacement[i], test.record.crack_length[i], 0.0));
+  if (least < noticeable_factor)
+    test.remarks.push_back(fmt::format(
+        "F of the standard takes up to {:.1f} % off G with N = 1; beams at large displacements need N too, which "
+        "block_offset = block_length = \"0 mm\" takes in",
+        100.0 * (1.0 - least)));
+}
+
 void remark_on(ReducedTest& test) {
   const double reach = test.record.displacement[test.straight.row_of_greatest];
   if (std::abs(test.straight.origin) > noticeable_origin * std::abs(reach))
@@ -106,6 +121,7 @@ ReducedTest reduced_test(const ReducedSpecimen& specimen, TestRecord record, con
   }
   for (const ReductionMethod& method : specimen.methods()) test.methods.push_back(reduced_by(method, data, test));
   remark_on(test);
+  remark_on_large_displacement(test, dimensions);
   return test;
 }
 

@@ -149,5 +149,24 @@ TEST(Corrections, AreThoseOfTheStandard) {
   EXPECT_EQ(block_factor(0.4, 1.0, not_given, not_given), 1.0);
 }
 
+// Two elasticas under forces at their ends that keep their direction (boundary value problem and -dU/da by SciPy):
+// G over 3 P d/(2 b a). F/N follows them, F alone is too low by 4.1 and 9.3 %.
+TEST(Corrections, FollowTheElastica) {
+  for (const auto& [ratio, expected] : {std::pair(0.2, 0.9983), {0.4, 0.9930}, {0.6, 0.9838}}) {
+    const double F = large_displacement_factor(ratio, 1.0, 0.0), N = block_factor(ratio, 1.0, 0.0, 0.0);
+    EXPECT_NEAR(F / N, expected, 1e-3) << ratio;
+  }
+  EXPECT_NEAR(large_displacement_factor(0.4, 1.0, not_given) / 0.9930, 0.9587, 1e-3);
+}
+
+TEST(ReducedRecords, SayThatTheFactorAloneIsTooSmall) {
+  const SyntheticTest soft{[](double a) { return 30.0 * beam_compliance(a, 2.7e-3); }, b, Gc};
+  const TestRecord record = soft.record(a0, 90e-3);
+  TestDimensions blocks = laminate();
+  EXPECT_THAT(reduced(record, blocks).remarks, testing::Contains(testing::HasSubstr("F of the standard takes")));
+  blocks.block_offset = blocks.block_length = 0.0;
+  EXPECT_THAT(reduced(record, blocks).remarks, testing::IsEmpty());
+}
+
 }  // namespace
 }  // namespace pfdm::this_file

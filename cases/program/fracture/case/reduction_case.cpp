@@ -32,6 +32,7 @@ std::vector<Key> dimension_rows() {
                 stress = quantity(dimension::stress, range::positive);
   const auto part = [](Key key) { return only_of(std::move(key), two_arms); };
   const auto block = [](Key key) { return only_of(std::move(key), "double_cantilever_beam"); };
+  const KeyType block_length = quantity(dimension::length, range::not_negative);
   const std::string left_out = "methods that need it are left out";
   return {
       required(stored<&D::width>("width", length, "Width b (B) of the specimen.")),
@@ -53,10 +54,10 @@ std::vector<Key> dimension_rows() {
       only_of(stored<&D::poisson_ratio>("poisson_ratio", number(poisson), "Poisson's ratio of an isotropic material.",
                                         left_out),
               "compact_tension"),
-      block(stored<&D::block_offset>("block_offset", length,
+      block(stored<&D::block_offset>("block_offset", block_length,
                                      "Distance t (l1) from the load point to the middle of the arm, for F and N.",
                                      "0 in F, N = 1")),
-      block(stored<&D::block_length>("block_length", length,
+      block(stored<&D::block_length>("block_length", block_length,
                                      "Distance L' (l2) from the load point to the end of its block, for N.", "N = 1")),
   };
 }
@@ -78,6 +79,8 @@ std::vector<double> quantities(const ConfigTable& table, std::string_view key) {
 }
 
 TestDimensions read_dimensions(const ConfigTable& table) {
+  for (const Key* key : table.rows())
+    if (key->otherwise.empty()) table.at(key->name);  // read_stored() passes over missing ones
   TestDimensions read;
   read_stored(table, read);
   if (table.choice("specimen") == "end_notched_flexure") {
