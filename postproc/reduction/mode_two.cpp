@@ -6,6 +6,8 @@
 namespace pfdm {
 namespace {
 
+constexpr double nearest_to_nose = 0.95;  // of an equivalent crack, over L
+
 /// Compliance that the beam's shear adds, 3 L/(10 b h G13) [m/N]; 0 where the modulus is not given.
 double shear_compliance(const TestDimensions& s) {
   return std::isnan(s.shear_modulus) ? 0.0 : 3.0 * s.half_span / (10.0 * s.width * s.arm() * s.shear_modulus);
@@ -86,6 +88,7 @@ CalibratedMethod shear_equivalent_crack(const CalibrationData& data) {
               [=, a0 = s.crack_length](double P, double d, double) {
                 const double ratio = ((d - origin) / P - shear) / bending;
                 const double a = std::cbrt(ratio * cube(a0) + 2.0 / 3.0 * (ratio - 1.0) * cube(L));
+                if (a > nearest_to_nose * L) return Reduced{not_given, a};  // beams of another kind
                 return Reduced{9.0 * P * P * a * a / (16.0 * b * b * cube(h) * E), a};
               },
           .constants = {{"E_flexural", "Pa", E}}};

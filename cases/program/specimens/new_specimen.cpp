@@ -39,6 +39,16 @@ std::string experiment_text(const std::vector<MeasuredRecord>& records, const st
   return text;
 }
 
+/// Largest displacement at which a method without crack lengths still holds [m]; 0 where there is none.
+double last_reduced(const std::vector<ReducedTest>& tests) {
+  double last = 0.0;
+  for (const ReducedTest& test : tests)
+    for (const ReducedByMethod& method : test.methods)
+      if (method.name == "equivalent_crack" && !method.points.empty())
+        last = std::max(last, test.record.displacement[method.points.back().row]);
+  return last;
+}
+
 RecordFindings findings_of(const std::string& text, bool has_reduction) {
   const Config config(text, "the record");
   RecordFindings found;
@@ -55,6 +65,7 @@ RecordFindings findings_of(const std::string& text, bool has_reduction) {
     found.straight.push_back(straight_part(record));
     found.reach = std::max(found.reach, record.displacement.back());
   }
+  if (const double last = last_reduced(found.reduced); last > 0.0) found.reach = last;
   return found;
 }
 

@@ -83,6 +83,16 @@ TEST(EndNotchedFlexure, IsCalibratedByOtherCracks) {
   EXPECT_NEAR(by(reduced(1, record, given), "compliance_calibration").five_percent.toughness, Gc, 0.01 * Gc);
 }
 
+TEST(EndNotchedFlexure, LeavesOutWhatIsNearTheNose) {
+  const SyntheticTest test{[](double a) { return flexure_compliance(a, 0.0); }, b, Gc};
+  TestRecord record = test.record(a0, 49.5e-3);
+  TestDimensions stiff = laminate();
+  stiff.shear_modulus = 1e30;
+  const std::vector<ReducedPoint> points = by(reduced(1, record, stiff), "equivalent_crack").points;
+  ASSERT_FALSE(points.empty());
+  EXPECT_NEAR(points.back().found.crack_length, 0.95 * L, 0.5e-3);
+}
+
 // C(a) whose derivative is the sum of both modes of the standard.
 TEST(MixedModeBending, IsTheEnergyThatTheComplianceReleases) {
   const double chi = root_rotation(E, E3, G13), c = 43.7e-3;
