@@ -208,6 +208,20 @@ class Sensitivities(Folder):
             case.sensitivity(self.folder / "none", parameters=["materials.none"])
 
 
+class Specimens(Folder):
+    def test_are_cases_whose_records_are_reduced(self):
+        record = self.folder / "record.csv"
+        rows = [f"{0.1 * i};{i}" for i in range(21)] + [f"{2 + 0.1 * i};{20 - 0.1 * i}" for i in range(1, 20)]
+        record.write_text("Opening [mm];Load [N]\n" + "\n".join(rows) + "\n")
+        case = pfdm.specimen(self.folder / "dcb", "double_cantilever_beam", data=record, width="20 mm")
+        self.assertEqual(case["experiment.reduction.width"], "20 mm")
+        test, = case.reduce().reduction["tests"]
+        self.assertAlmostEqual(test["initial_compliance_m_per_N"], 1e-4)
+        self.assertGreater(test["methods"][3]["propagation"]["G_J_per_m2"], 0.0)
+        with self.assertRaises(pfdm.InputError):
+            pfdm.specimen(self.folder / "other", "double_cantilever_beam", width="20")
+
+
 class Fits(Folder):
     def test_have_estimates_with_intervals_and_a_case(self):
         case = pfdm.Case(shipped / "endochronic_calibration")

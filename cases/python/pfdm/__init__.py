@@ -16,7 +16,7 @@ With the compiled extension pieces of it run in this process, on arrays of NumPy
 functions: MassMaterial, Endochronic, InterfaceLaw, softening.
 """
 
-from .case import Case, Check
+from .case import Case, Check, specimen
 from .endochronic import Endochronic
 from .errors import ComputationError, Error, InputError, MissingResult
 from .fracture_run import FractureRun, State
@@ -33,4 +33,4 @@ from .vtu import Grid
 __all__ = ["Case", "Check", "ComputationError", "Endochronic", "Error", "Fit", "FractureRun", "Frame", "Grid", "InputError",
            "InterfaceLaw", "InterfaceResponse", "MassMaterial", "MaterialResponse", "Mesh", "MissingResult",
            "OwnInterfaceLaw", "OwnMaterial", "Results", "State", "homogenize", "open", "set_threads", "softening",
-           "softening_laws", "sweep"]
+           "softening_laws", "specimen", "sweep"]

@@ -183,6 +183,16 @@ class Case:
         call(words)
         return self.results(output)
 
+    def reduce(self, output: str | Path | None = None) -> Results:
+        """Data reduction of the records of a fracture test, as the standards of its specimen have it; no run is needed.
+
+        Returns the results: Results.reduction with G at initiation and in propagation [J/m^2] by each method,
+        Results.table("reduction.csv") by point. Raises InputError without [experiment.reduction], and for a record that
+        cannot be reduced.
+        """
+        call(self.words("reduce", output))
+        return self.results(output)
+
     def report(self, output: str | Path | None = None) -> Path:
         """Draws the page of the results and returns the path of report/index.html."""
         call(self.words("report", output))
@@ -191,3 +201,23 @@ class Case:
     def results(self, output: str | Path | None = None) -> Results:
         """What is in the results directory (None: own_results)."""
         return Results(self.own_results if output is None else output)
+
+
+def specimen(directory: str | Path, name: str, *, data: str | Path | Sequence[str | Path] = (), **values: Any) -> Case:
+    """A new case of a standard specimen, as of `pfdm init DIR --specimen NAME`.
+
+    Args:
+        directory: a new or empty directory.
+        name: "double_cantilever_beam", "end_notched_flexure".
+        data: a CSV file of the testing machine, or several.
+        values: dimensions and properties in place of defaults, width="20 mm"; `pfdm init --specimen` lists them.
+
+    Raises InputError for what is wrong, before anything is written.
+    """
+    words = ["init", str(directory), "--specimen", name]
+    for file in [data] if isinstance(data, (str, Path)) else data:
+        words += ["--data", str(file)]
+    for key, value in values.items():
+        words += ["--set", f"{key}={value}"]
+    call(words)
+    return Case(directory)

@@ -214,6 +214,11 @@ class Results:
         """sensitivity.json: the parameters, and the elasticities of each event of the curve."""
         return _json(self.folder / "sensitivity.json", "pfdm sensitivity")
 
+    @cached_property
+    def reduction(self) -> dict[str, Any]:
+        """reduction.json: of each test the methods of data reduction with G at initiation and in propagation."""
+        return _json(self.folder / "reduction.json", "pfdm reduce")
+
     @property
     def fit(self) -> Fit:
         return Fit(self.folder)
