@@ -266,7 +266,7 @@ RunnableCase read_program(const CaseFile& file) {
   if (!program->reduction)
     found.reduce = job_without_table(file, "experiment.reduction",
                                      "the specimen and its dimensions; its records stand in [experiment]",
-                                     "double_cantilever_beam_fit");
+                                     "dcb_fit");
   found.fit = [program](Session& session) { fit(*program, session); };
   found.sensitivity = [program](Session& session) { sensitivity(*program, session); };
   if (!program->fit)

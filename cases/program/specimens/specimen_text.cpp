@@ -68,10 +68,10 @@ std::string replacement(const std::string& piece, const SpecimenWords& words) {
   std::string unit = without_blanks(piece.substr(colon + 3));
   if (unit == "count") return fmt::format("{}", std::llround(value));
   if (unit == "1") return fmt::format("{:.6g}", value);
-  const bool bare = unit.starts_with("in ");
-  if (bare) unit = unit.substr(3);
-  const double factor = unit == "%" ? 0.01 : unit_in_si(unit, dimension_of("1 " + unit));
-  const std::string quantity = fmt::format("{:.{}g} {}", value / factor, bare ? 4 : 9, unit);
+  const bool bare = unit.starts_with("in "), rounded = unit.starts_with("about ");
+  if (bare || rounded) unit = unit.substr(unit.find(' ') + 1);
+  const double factor = unit_in_si(unit, dimension_of("1 " + unit));
+  const std::string quantity = fmt::format("{:.{}g} {}", value / factor, bare ? 4 : rounded ? 3 : 9, unit);
   return bare ? quantity : fmt::format("\"{}\"", quantity);
 }
 

@@ -29,7 +29,8 @@ void guess(SpecimenWords& words, const SpecimenValue& value, double si);
 void derive(const SpecimenFile& specimen, SpecimenWords& words);
 
 /// `text` with {{ ... }} replaced: {{ name }} as it was written, quoted if it has a unit; {{ formula : mm }} a quoted
-/// quantity; {{ formula : count }} a whole number; {{ formula : 1 }} a number; {{ formula : in mm }} without quotes.
+/// quantity; {{ formula : count }} a whole number; {{ formula : 1 }} a number; {{ formula : in mm }} without quotes,
+/// with 4 digits; {{ formula : about mm }} with 3.
 std::string filled(const std::string& text, const SpecimenWords& words);
 
 }  // namespace pfdm
