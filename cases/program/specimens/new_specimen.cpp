@@ -99,7 +99,7 @@ double guessed(const SpecimenValue& value, const std::vector<ReducedTest>& tests
 void guess_all(const SpecimenFile& specimen, const RecordFindings& found, SpecimenWords& words, std::ostream& out) {
   if (found.reduced.empty()) return;
   for (const SpecimenValue& value : specimen.values) {
-    if (value.guess.empty() || words.is_given[value.name]) continue;
+    if (value.guess.empty() || words.given.contains(value.name)) continue;
     guess(words, value, guessed(value, found.reduced));
     out << fmt::format("  {}: {} by data reduction, the first guess\n", value.name, words.texts[value.name]);
   }
@@ -191,6 +191,27 @@ void write_all(const SpecimenRequest& request, const std::vector<std::string>& f
   write_file(request.directory / "case.toml", text);
 }
 
+/// What the records say: first guesses and numbers of `words`, sentences on `said`.
+Measured measured_or_none(const SpecimenFile& specimen, const SpecimenRequest& request,
+                          const std::vector<std::string>& files, const std::map<std::string, std::string>& columns,
+                          SpecimenWords& words, std::ostream& said) {
+  Measured test;
+  double straight_end = 0.0;
+  if (!files.empty()) {
+    const std::vector<MeasuredRecord> records = recognised_all(request, files, columns);
+    test = measured(records, request, filled(specimen.reduction, words));
+    for (const MeasuredRecord& record : records)
+      for (const std::string& remark : record.remarks) said << fmt::format("  {}: {}\n", record.file, remark);
+    guess_all(specimen, test.found, words, said);
+    const StraightPart& straight = test.found.straight.front();
+    straight_end = straight.compliance * straight_to * straight.greatest_force;
+  }
+  words.numbers["has_record"] = files.empty() ? 0.0 : 1.0;
+  words.numbers["reach"] = test.found.reach;
+  words.numbers["straight_end"] = straight_end;
+  return test;
+}
+
 }  // namespace
 
 void make_specimen(const SpecimenRequest& request, std::ostream& out) {
@@ -198,40 +219,27 @@ void make_specimen(const SpecimenRequest& request, std::ostream& out) {
   std::map<std::string, std::string> columns;
   SpecimenWords words = specimen_words(specimen, request.set, column_words(), columns);
   const std::vector<std::string> files = file_names(request.records);
-  const std::vector<MeasuredRecord> records = recognised_all(request, files, columns);
-  const bool has_record = !records.empty();
-  if (!has_record && !columns.empty())
+  if (files.empty() && !columns.empty())
     throw InputError(
         fmt::format("--set {}: there is no record whose column it is; --data FILE names one", columns.begin()->first));
   std::ostringstream said;
-  Measured test;
-  if (has_record) {
-    test = measured(records, request, filled(specimen.reduction, words));
-    for (const MeasuredRecord& record : records)
-      for (const std::string& remark : record.remarks) said << fmt::format("  {}: {}\n", record.file, remark);
-    guess_all(specimen, test.found, words, said);
-  }
-  words.numbers["has_record"] = has_record ? 1.0 : 0.0;
-  words.numbers["reach"] = test.found.reach;
-  words.numbers["straight_end"] =
-      has_record ? test.found.straight.front().compliance * straight_to * test.found.straight.front().greatest_force
-                 : 0.0;
+  const Measured test = measured_or_none(specimen, request, files, columns, words, said);
   derive(specimen, words);
   const std::string fit = filled(specimen.fit_text, words);
-  std::string text = schema_line(request) + filled(specimen.case_text, words) + "\n";
-  text += has_record ? test.text + fit
-                     : "# With a record of the test in data/, without the signs of comment:\n\n" +
-                           commented(unmeasured(filled(specimen.reduction, words)) + fit);
+  const std::string text = schema_line(request) + filled(specimen.case_text, words) + "\n" +
+                           (files.empty() ? "# With a record of the test in data/, without the signs of comment:\n\n" +
+                                                commented(unmeasured(filled(specimen.reduction, words)) + fit)
+                                          : test.text + fit);
   write_all(request, files, text, filled(specimen.readme, words));
   const std::string place = request.directory.string();
   out << fmt::format("made {} of {} ({}): case.toml, README.md", place, specimen.name, specimen.standard);
   for (const std::string& file : files) out << ", " << file;
   out << '\n' << said.str();
-  if (has_record)
+  if (files.empty())
+    out << fmt::format("next: {0} run {1}\n", request.called_as, place);
+  else
     out << fmt::format("next: {0} fit {1}\n      {0} cohesive {1}/results/case.fitted.toml --export abaqus\n",
                        request.called_as, place);
-  else
-    out << fmt::format("next: {0} run {1}\n", request.called_as, place);
 }
 
 void list_specimens(const fs::path& cases, std::ostream& out) {

@@ -4,11 +4,8 @@
 #include "cases/program/input/config/units.h"
 
 #include <filesystem>
-#include <map>
-#include <optional>
-#include <span>
 #include <string>
-#include <string_view>
+#include <utility>
 #include <vector>
 
 namespace pfdm {

@@ -102,7 +102,7 @@ SpecimenWords specimen_words(const SpecimenFile& specimen, std::span<const std::
       throw InputError(fmt::format("--set {}: {} ({})", name, error.what(), value->what));
     }
     found.texts[name] = text;
-    found.is_given[name] = true;
+    found.given.insert(name);
   }
   return found;
 }

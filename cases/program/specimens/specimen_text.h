@@ -4,7 +4,7 @@
 #include "cases/program/specimens/specimen_file.h"
 
 #include <map>
-#include <optional>
+#include <set>
 #include <span>
 #include <string>
 
@@ -13,7 +13,7 @@ namespace pfdm {
 /// What --set says of the specimen.
 struct SpecimenWords {
   std::map<std::string, std::string> texts;  ///< of each value, as the user or the file writes it
-  std::map<std::string, bool> is_given;      ///< by the user
+  std::set<std::string> given{};             ///< by the user
   std::map<std::string, double> numbers;     ///< in SI, derived ones too
 };
 
