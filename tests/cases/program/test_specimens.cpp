@@ -1,6 +1,7 @@
 // pfdm init --specimen, and what it makes: cases that check, records that are recognised, data reduction.
 
 #include "cases/program/specimens/specimen_file.h"
+#include "postproc/files/csv_table.h"
 #include "tests/cases/temporary_case.h"
 
 #include <gmock/gmock.h>
@@ -168,6 +169,25 @@ TEST(Specimens, TurnShiftAndNameRecords) {
   EXPECT_THAT(made_text, HasSubstr("displacement = { column = \"u\", unit = \"mm\", factor = -1 }"));
   EXPECT_THAT(made_text, HasSubstr("toe = [\"4 N\", \"20 N\"]"));
   EXPECT_EQ(run({"check", (directory.path() / "new").string()}).err, "");
+}
+
+/// Stiffness [N/m] of the first step.
+double stiffness_of(const std::string& specimen) {
+  const TemporaryCase directory(bar_case());
+  EXPECT_EQ(made(directory, specimen).status, 0);
+  EXPECT_EQ(run({"run", (directory.path() / "new").string(), "--max-steps", "1", "--quiet"}).status, 0);
+  const CsvTable curve = read_csv(directory.path() / "new/results/force_displacement.csv");
+  return curve.column("force_y_N")[1] / curve.column("displacement_m")[1];
+}
+
+// E = 130 GPa, b = 25 mm, h = 1.5 mm, chi = 1.830 by hand (E33 = 9 GPa, G13 = 5 GPa).
+TEST(Specimens, AreAsStiffAsBeams) {
+  const double E = 130e9, b = 25e-3, h = 1.5e-3, chi = 1.830, L = 50e-3;
+  const double opened = E * b * h * h * h / (8.0 * std::pow(50e-3 + chi * h, 3));
+  EXPECT_NEAR(stiffness_of("double_cantilever_beam") / opened, 1.0, 0.01);
+  const double bent = (2.0 * L * L * L + 3.0 * std::pow(30e-3 + 0.42 * chi * h, 3)) / (8.0 * E * b * h * h * h) +
+                      3.0 * L / (10.0 * b * h * 5e9);
+  EXPECT_NEAR(stiffness_of("end_notched_flexure") * bent, 1.0, 0.01);
 }
 
 TEST(Reduce, NeedsASpecimen) {
