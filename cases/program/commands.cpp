@@ -2,13 +2,12 @@
 
 #include "cases/program/command_texts.h"
 #include "cases/program/input/config/config.h"
+#include "physics/system/machine_limits.h"
 #include "postproc/curves/instruction_set.h"
 #include "postproc/exports/export_formats.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include "physics/system/machine_limits.h"
-
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
@@ -161,37 +160,24 @@ void Parser::add_sensitivity_options() {
 }
 
 void Parser::add_other_options() {
-  command("init").add_option("DIR", line.new_directory, "the new case directory")->type_name("");
-  command("init")
-      .add_option("--like", line.like, "the case to start from: a directory, or the name of a case that ships")
-      ->type_name("CASE");
-  command("init")
-      .add_option(
-          "--specimen", line.specimen,
-          "a standard specimen in place of a case, as double_cantilever_beam; alone: which there are, and their "
-          "dimensions with defaults")
+  CLI::App& init = command("init");
+  init.add_option("DIR", line.new_directory, "the new case directory")->type_name("");
+  init.add_option("--like", line.like, "the case to start from: a directory, or a case that ships")->type_name("CASE");
+  init.add_option("--specimen", line.specimen, "a standard specimen in place of a case; alone: which there are")
       ->expected(0, 1)
       ->type_name("NAME")
       ->excludes("--like");
-  command("init")
-      .add_option("--data", line.records, "CSV file of the testing machine; may be repeated: one for each specimen")
-      ->check(not_empty())
-      ->type_name("FILE")
-      ->allow_extra_args(false)
-      ->needs("--specimen");
-  command("init")
-      .add_option("--set", line.set,
-                  "a dimension or property of the specimen, as in --set \"width=20 mm\"; may be repeated")
-      ->type_name("NAME=VALUE")
-      ->allow_extra_args(false)
-      ->needs("--specimen");
+  const auto of_specimen = [&init](const char* name, std::vector<std::string>& words, const char* meaning) {
+    return init.add_option(name, words, meaning)->check(not_empty())->allow_extra_args(false)->needs("--specimen");
+  };
+  of_specimen("--data", line.records, "CSV file of the testing machine; may be repeated")->type_name("FILE");
+  of_specimen("--set", line.set, "a dimension or property of the specimen; may be repeated")->type_name("NAME=VALUE");
   command("list").add_flag("--laws", line.laws, "list laws, boundary conditions and generators instead");
-  command("help")
-      .add_option("COMMAND", line.case_directory, "the command, or a key, as toughness or materials.poisson_ratio")
+  CLI::App& help = command("help");
+  help.add_option("COMMAND", line.case_directory, "the command, or a key, as toughness or materials.poisson_ratio")
       ->type_name("");
-  command("help").add_flag("--schema", line.schema, "print the JSON schema of case.toml, for editors");
-  command("help")
-      .add_option("--reference", line.reference, "write the reference of keys to this folder, a page for each table")
+  help.add_flag("--schema", line.schema, "print the JSON schema of case.toml, for editors");
+  help.add_option("--reference", line.reference, "write the reference of keys to this folder, a page for each table")
       ->type_name("DIR");
   command("completion").add_option("SHELL", line.shell, "bash or zsh")->required()->type_name("");
 }
@@ -287,8 +273,7 @@ std::optional<CommandLine> read_command_line(const std::vector<std::string>& arg
   if (line.cases.size() == 1) line.case_directory = line.cases.front();
   if (line.sensitivity.method == "direct" && app.get_subcommands().front()->count("--step") > 0)
     throw InputError("sensitivity: --step is that of differences; --method direct takes none");
-  if (line.command != "help") return line;
-  if (line.schema || !line.reference.empty()) return line;
+  if (line.command != "help" || line.schema || !line.reference.empty()) return line;
   if (line.case_directory.empty()) return read_command_line({"--help"}, out);
   if (is_command(line.case_directory, app)) return read_command_line({line.case_directory, "--help"}, out);
   line.key = line.case_directory;

@@ -265,8 +265,7 @@ RunnableCase read_program(const CaseFile& file) {
   found.reduce = [program](Session& session) { reduce_tests(*program, session); };
   if (!program->reduction)
     found.reduce = job_without_table(file, "experiment.reduction",
-                                     "the specimen and its dimensions; its records stand in [experiment]",
-                                     "dcb_fit");
+                                     "the specimen and its dimensions; its records stand in [experiment]", "dcb_fit");
   found.fit = [program](Session& session) { fit(*program, session); };
   found.sensitivity = [program](Session& session) { sensitivity(*program, session); };
   if (!program->fit)

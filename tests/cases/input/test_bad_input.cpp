@@ -193,7 +193,8 @@ TEST(BadInput, ResultsFolderWithoutAName) {
 
 TEST(BadInput, UnknownCommand) {
   EXPECT_EQ(run({"rn", "case"}).err,
-            "pfdm: unknown command \"rn\"; did you mean \"run\"? (available: run, check, mesh, cohesive, compare, reduce, fit, "
+            "pfdm: unknown command \"rn\"; did you mean \"run\"? (available: run, check, mesh, cohesive, compare, "
+            "reduce, fit, "
             "sweep, sensitivity, analyse, report, init, list, help, completion, test)\n");
 }
 
