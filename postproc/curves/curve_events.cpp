@@ -229,29 +229,35 @@ ComputedEvent computed_event(const MeasuredEvent& event, const SampledCurve& mod
   return computed_greatest(model);
 }
 
+std::vector<CurvePart> parts_between_jumps(const SampledCurve& model, const std::vector<MeasuredEvent>& events,
+                                           std::size_t specimen) {
+  std::vector<CurvePart> parts(1);
+  for (const Pair& jump : in_order(jumps_of_model(model, events, specimen))) {
+    parts.back().end = jump.before + 1;
+    parts.back().to = jump.place;
+    parts.push_back({.first = jump.after, .from = jump.place});
+  }
+  parts.back().end = model.x.size();
+  return parts;
+}
+
 SampledCurve with_jumps_as_measured(const SampledCurve& model, const std::vector<MeasuredEvent>& events,
                                     std::size_t specimen) {
-  constexpr double share = 0.02;  // of the curve: the slope at a branch's end
-  const std::vector<Pair> jumps = in_order(jumps_of_model(model, events, specimen));
-  if (jumps.empty()) return model;
-  const double reach = share * (model.x.back() - model.x.front());
+  const std::vector<CurvePart> parts = parts_between_jumps(model, events, specimen);
+  if (parts.size() == 1) return model;
+  const double reach = share_of_slope * (model.x.back() - model.x.front());
   SampledCurve moved{.name = model.name, .x = {}, .y = {}};
   const auto add = [&](double x, double y) {
     moved.x.push_back(x);
     moved.y.push_back(y);
   };
-  std::size_t first = 0;
-  for (std::size_t k = 0; k <= jumps.size(); ++k) {
-    const std::size_t end = k < jumps.size() ? jumps[k].before + 1 : model.x.size();
-    const Branch branch{.x = std::span(model.x).subspan(first, end - first),
-                        .y = std::span(model.y).subspan(first, end - first)};
-    const double from = k > 0 ? jumps[k - 1].place : -std::numeric_limits<double>::infinity();
-    const double to = k < jumps.size() ? jumps[k].place : std::numeric_limits<double>::infinity();
-    if (k > 0) add(from, branch.at(from, reach));
+  for (const CurvePart& part : parts) {
+    const Branch branch{.x = std::span(model.x).subspan(part.first, part.end - part.first),
+                        .y = std::span(model.y).subspan(part.first, part.end - part.first)};
+    if (std::isfinite(part.from)) add(part.from, branch.at(part.from, reach));
     for (std::size_t i = 0; i < branch.x.size(); ++i)
-      if (branch.x[i] > from && branch.x[i] < to) add(branch.x[i], branch.y[i]);
-    if (k < jumps.size()) add(to, branch.at(to, reach));
-    if (k < jumps.size()) first = jumps[k].after;
+      if (branch.x[i] > part.from && branch.x[i] < part.to) add(branch.x[i], branch.y[i]);
+    if (std::isfinite(part.to)) add(part.to, branch.at(part.to, reach));
   }
   return moved;
 }

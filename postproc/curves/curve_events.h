@@ -81,6 +81,19 @@ ComputedEvent computed_event(const MeasuredEvent& event, const SampledCurve& mod
 /// Length of the step of a curve in which a displacement lies, and beyond the curve's ends of the nearest one [m].
 double step_at(const SampledCurve& curve, double displacement);
 
+/// Rows [first, end) of a model's curve between jumps that were measured, and the measured displacements between which
+/// they count; infinite without a jump at that end.
+struct CurvePart {
+  std::size_t first = 0, end = 0;
+  double from = -std::numeric_limits<double>::infinity(), to = std::numeric_limits<double>::infinity();
+};
+/// One after the other; the whole curve without jumps. Which jumps part it is said at with_jumps_as_measured().
+std::vector<CurvePart> parts_between_jumps(const SampledCurve& model, const std::vector<MeasuredEvent>& events,
+                                           std::size_t specimen);
+
+/// Of the curve: over so much of it a part's slope is taken with which it goes on beyond its end.
+inline constexpr double share_of_slope = 0.02;
+
 /// The model's curve with its jumps where these are measured. What lies between jumps stays where it is, and goes on
 /// straight to the measured place, with the mean slope of the nearest 2 % of the curve. Jumps that are not there stay
 /// out of it; of those that are the same jump of the model, or in another order, the nearest is moved. Events of other

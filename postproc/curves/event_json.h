@@ -12,4 +12,7 @@ nlohmann::ordered_json to_json(const std::vector<FittedEvent>& events);
 /// Throws as nlohmann's library does.
 std::vector<FittedEvent> events_in(const nlohmann::ordered_json& list);
 
+nlohmann::ordered_json to_json(const std::vector<FittedField>& fields);
+std::vector<FittedField> fields_in(const nlohmann::ordered_json& list);
+
 }  // namespace pfdm

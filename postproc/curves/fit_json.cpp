@@ -189,6 +189,7 @@ FitReport report_in(const Json& json) {
                              .sensitivity_file = json.value("sensitivity_file", "")},
                    .experiments = {},
                    .events = json.contains("events") ? events_in(json.at("events")) : std::vector<FittedEvent>{},
+                   .fields = json.contains("fields") ? fields_in(json.at("fields")) : std::vector<FittedField>{},
                    .own = {.kind = json.at("kind")}};
   for (const Json& e : json.at("experiments")) report.experiments.push_back(experiment_in(e));
   report.own.json = json_line(json.at(report.own.kind));
@@ -253,6 +254,7 @@ void write_fit_json(const std::filesystem::path& file, const FitReport& report) 
   json.update(to_json(report.found));
   json["experiments"] = to_json(report.experiments);
   if (!report.events.empty()) json["events"] = to_json(report.events);
+  if (!report.fields.empty()) json["fields"] = to_json(report.fields);
   json[report.own.kind] = Json::parse(report.own.json);
   write_file(file, json_text(json));
 }

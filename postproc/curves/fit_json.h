@@ -115,6 +115,29 @@ struct FittedEvent {
   double figure(const std::string& name, double Figure::*value) const;  ///< NaN if it has none of this name
 };
 
+/// Tables of fields are called fit_field_0.csv and so on.
+inline constexpr const char* field_tables = "fit_field_";
+
+/// A field of measured displacements, and how the fit meets it.
+struct FittedField {
+  struct Frame {
+    std::string name;
+    double displacement = 0.0;  ///< of the record [m]
+    std::size_t places = 0;
+    double rms = 0.0, rms_measured = 0.0;  ///< of a component; of computed less measured and of measured [m]
+  };
+  std::string name;
+  std::string specimen;
+  std::string file;                    ///< of its table
+  double pitch = 0.0;                  ///< of the places [m]
+  std::size_t n_data = 0;              ///< without rigid motions
+  double deviation = 0.0;              ///< of a component of one point, with which it counts [m]
+  double stated = 0.0;                 ///< as the case says; 0: not stated
+  double inflation = 1.0, over = 0.0;  ///< for correlated residuals, and the length over which they are [m]
+  bool over_frames = false;
+  std::vector<Frame> frames{};
+};
+
 /// A part of a fit, with some of the parameters and of the data.
 struct FitStage {
   std::string name;
@@ -150,6 +173,7 @@ struct FitReport {
   FitFindings found;
   std::vector<ExperimentMisfit> experiments;
   std::vector<FittedEvent> events{};  ///< in fit.json only where there are any
+  std::vector<FittedField> fields{};  ///< likewise
   OwnFindings own;
 };
 

@@ -18,7 +18,12 @@ constexpr double most_of_move = 4.0;     // of what a finer discretisation does 
 std::vector<CorrelatedError> errors_if_correlated(const JudgedData& data) {
   if (data.result == nullptr || !data.correlated_is_noise || data.result->inverse_normal.size() == 0) return {};
   std::vector<std::size_t> lengths;
-  for (const ResidualSeries& series : data.series) lengths.push_back(series.values.size());
+  std::size_t rest = data.result->residuals.size();  // of fields, which count as independent data
+  for (const ResidualSeries& series : data.series) {
+    lengths.push_back(series.values.size());
+    rest -= std::min(rest, series.values.size());
+  }
+  lengths.insert(lengths.end(), rest, 1);
   return correlated_errors(*data.result, lengths);
 }
 

@@ -58,6 +58,7 @@ set(rooms
     "postproc/hdf5: physics"
     "postproc/fields: physics mesh mesh/files solver solver/momentum solver/fracture postproc/files postproc/hdf5"
     "postproc/curves: physics solver/fracture solver/calibration postproc/files"
+    "postproc/displacements: physics mesh mesh/search postproc/files postproc/curves"
     "postproc/point: physics solver/point postproc/files postproc/curves"
     "postproc/vibration: physics solver/vibration solver/calibration postproc/files postproc/curves"
     "postproc/cohesive: physics mesh mesh/search solver solver/fracture solver/calibration postproc/files postproc/fields postproc/curves"
@@ -77,14 +78,14 @@ set(rooms
     "cases/program/session/terminal: physics mesh solver postproc/files cases/program/input"
     "cases/program/session: physics mesh solver postproc/files postproc/curves postproc/page postproc/browser
      cases/program/input cases/program/session/terminal"
-    "cases/program/studies/runs: physics solver/calibration postproc/files postproc/curves cases/program/input cases/program/session"
-    "cases/program/studies/fit: physics solver/calibration postproc/files postproc/curves postproc/page postproc/browser
+    "cases/program/studies/runs: physics solver/calibration postproc/files postproc/curves postproc/displacements cases/program/input cases/program/session"
+    "cases/program/studies/fit: physics solver/calibration postproc/files postproc/curves postproc/displacements postproc/page postproc/browser
      cases/program/input cases/program/session cases/program/studies/runs"
     "cases/program/studies/sweep: physics solver/calibration postproc/files postproc/curves postproc/page postproc/browser
      cases/program/input cases/program/session cases/program/studies/runs"
     "cases/program/studies/sensitivity: physics solver/calibration postproc/files postproc/curves postproc/page postproc/browser
      cases/program/input cases/program/session cases/program/studies/runs cases/program/studies/fit"
-    "cases/program/studies: physics solver/calibration postproc/files postproc/curves postproc/page postproc/browser cases/program/input
+    "cases/program/studies: physics solver/calibration postproc/files postproc/curves postproc/displacements postproc/page postproc/browser cases/program/input
      cases/program/session cases/program/studies/runs cases/program/studies/fit
      cases/program/studies/sensitivity cases/program/studies/sweep"
     "cases/program/chain: physics solver/calibration postproc/files postproc/page cases/program/input cases/program/session"
@@ -97,18 +98,18 @@ set(rooms
     "cases/program/fracture/body: physics mesh mesh/search mesh/surfaces mesh/generators mesh/files solver/momentum solver/fracture postproc/files
      cases/program/input"
     "cases/program/fracture/case: physics mesh mesh/files solver/heat solver/momentum solver/fracture postproc/reduction postproc/files postproc/fields
-     postproc/curves postproc/cohesive cases/program/input cases/program/session cases/program/studies cases/program/fracture/body"
+     postproc/curves postproc/displacements postproc/cohesive cases/program/input cases/program/session cases/program/studies cases/program/fracture/body"
     "cases/program/fracture/outcome: physics mesh solver/heat solver/momentum solver/fracture postproc/files postproc/fields
-     postproc/curves postproc/cohesive postproc/exports postproc/page postproc/browser cases/program/input cases/program/session
+     postproc/curves postproc/displacements postproc/cohesive postproc/exports postproc/page postproc/browser cases/program/input cases/program/session
      cases/program/studies cases/program/fracture/body cases/program/fracture/case"
     "cases/program/fracture/page: physics mesh solver/fracture postproc/files postproc/fields postproc/curves postproc/cohesive
      postproc/page postproc/browser cases/program/input cases/program/session cases/program/studies cases/program/fracture/case
      cases/program/fracture/outcome"
-    "cases/program/fracture/run: physics mesh solver/heat solver/fracture postproc/reduction postproc/files postproc/fields postproc/curves
+    "cases/program/fracture/run: physics mesh solver/heat solver/fracture postproc/reduction postproc/files postproc/fields postproc/curves postproc/displacements
      postproc/cohesive postproc/page postproc/browser cases/program/input cases/program/session cases/program/studies cases/program/fracture/case
      cases/program/fracture/outcome cases/program/fracture/page"
     "cases/program/fracture: physics mesh mesh/surfaces mesh/generators mesh/files solver/heat solver/momentum solver/fracture postproc/reduction postproc/files
-     postproc/fields postproc/curves postproc/cohesive postproc/exports postproc/page postproc/browser cases/program/input cases/program/session
+     postproc/fields postproc/curves postproc/displacements postproc/cohesive postproc/exports postproc/page postproc/browser cases/program/input cases/program/session
      cases/program/studies cases/program/fracture/body cases/program/fracture/case
      cases/program/fracture/outcome cases/program/fracture/page cases/program/fracture/run"
     "cases/program/specimens: physics solver/fracture postproc/files postproc/curves postproc/reduction cases/program/input

@@ -69,6 +69,30 @@ std::vector<MeasuredEvent> events_of_fit(const FractureProgram& program) {
   return events;
 }
 
+MeasuredFields fields_of_fit(const FractureProgram& program, const Mesh& mesh, Log& log) {
+  const ExperimentSettings& experiment = *program.experiment;
+  MeasuredFields found;
+  for (const FieldSettings& settings : experiment.fields) {
+    if (experiment.specimens[settings.field.specimen].curve.deviation.empty())
+      throw settings.where.error(
+          fmt::format("with what weight the field counts beside the rows of \"{}\" is not known; give "
+                      "[[experiment.specimens]] deviation",
+                      experiment.specimens[settings.field.specimen].curve.name));
+    const RecordedField recorded = read_recorded_field(settings, experiment.specimens, program.file.directory);
+    found.fields.push_back(
+        settings.where.in_context([&] { return selected_field(recorded, settings.selection, mesh, found.places); }));
+    const MeasuredField& field = found.fields.back();
+    std::size_t n = 0;
+    for (const FieldFrame& frame : field.frames) n += frame.places.size();
+    log.say(fmt::format(
+        "field \"{}\": {} frames from {}, {} places of {} or {} points, {} components", field.name, field.frames.size(),
+        quantities_text({field.frames.front().displacement, field.frames.back().displacement}, "m", " to "), n,
+        quantity_text(field.pitch, "m", 3), field.frames.front().n_points.front(), field.n_components));
+    for (const std::string& told : field.told) log.say(fmt::format("field \"{}\": {}", field.name, told));
+  }
+  return found;
+}
+
 Mesh made_mesh(const FractureProgram& program, Log& log) {
   for (const std::string& remark : program.fracture.materials.remarks) log.say(remark);
   const Stopwatch watch;
@@ -118,6 +142,7 @@ void check_fracture(const FractureProgram& program, Session& session) {
                       loading.end));
   log.say(time_words(mesh, run.model(), loading, session.results, program.hash));
   if (program.fit) check_fit(program, log);
+  if (program.fit && program.experiment) fields_of_fit(program, mesh, log);
   for (const ColumnSet& set : columns)
     log.say(fmt::format("cohesive law of \"{}\" from {} columns", set.name, set.columns.size()));
   log.say(fmt::format("results go to {}", session.results.string()));

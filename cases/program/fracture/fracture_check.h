@@ -18,6 +18,10 @@ void warn_of_interfaces(const FractureRun& run, Log& log);
 /// no stage of the fit has or that the load does not reach.
 std::vector<MeasuredEvent> events_of_fit(const FractureProgram& program);
 
+/// The fields of the case on this mesh: says what counts of them and what was left out. Throws InputError as
+/// read_recorded_field() and selected_field(), and for a field on a specimen without standard deviations.
+MeasuredFields fields_of_fit(const FractureProgram& program, const Mesh& mesh, Log& log);
+
 /// Says what would run: pfdm check.
 void check_fracture(const FractureProgram& program, Session& session);
 

@@ -25,6 +25,7 @@
 #include "cases/program/session/terminal/stopwatch.h"
 #include "cases/program/studies/fit/curve_fit.h"
 #include "cases/program/studies/sensitivity/sensitivity.h"
+#include "postproc/displacements/place_record.h"
 #include "postproc/files/folder_lock.h"
 #include "postproc/files/other_case.h"
 #include "solver/fracture/bending_words.h"
@@ -89,6 +90,7 @@ void run_case(FractureProgram program, Session& session) {
     program.fracture.output.figures_only = true;
     program.fracture.output.tips.clear();
   }
+  if (session.places) program.fracture.output.places = *session.places;
   session.log.say(head_line(session, fmt::format("case {}: {}", program.name, program.fracture.title)));
   RunTimes times;
   MeshStore own_mesh;
@@ -154,6 +156,22 @@ CurveModel::ReadCurve curve_reader(const FractureProgram& program) {
   };
 }
 
+/// What a fit of fields reads of a run.
+CurveModel::ReadHistory history_reader(const FractureProgram& program) {
+  return [component = program.fracture.output.curve.component](const std::filesystem::path& results) {
+    FieldHistory history{.followed = {.name = "computed", .x = {}, .y = {}}, .rows = read_place_record(results)};
+    for (const CurveRow& row : read_curve(results / curve_file)) {
+      history.followed.x.push_back(row.displacement);
+      history.followed.y.push_back(row.force[component]);
+    }
+    const std::size_t n = std::min(history.rows.size(), history.followed.x.size());
+    history.rows.resize(n);
+    history.followed.x.resize(n);
+    history.followed.y.resize(n);
+    return history;
+  };
+}
+
 /// The same along the way that it moves first; what falls back behind the largest displacement is left out.
 SensitivityJob::ReadForward forward_reader(const FractureProgram& program) {
   return [component = program.fracture.output.curve.component](const std::filesystem::path& results) {
@@ -209,14 +227,21 @@ void fit(const FractureProgram& program, Session& session) {
     throw InputError(fmt::format("{}: it names no [experiment] that the curve could be fitted to", program.name));
   const ExperimentSettings& experiment = *program.experiment;
   const std::vector<MeasuredEvent> events = events_of_fit(program);
+  MeasuredFields fields;
+  if (!experiment.fields.empty()) {
+    MeshStore own;
+    fields = fields_of_fit(program, find_mesh(program, own, session.log), session.log);
+  }
   fit_curve({.file = program.file,
              .settings = *program.fit,
              .specimens = experiment.specimens,
              .events = events,
+             .fields = fields,
              .straight_from = experiment.stiffness_from,
              .straight_to = experiment.stiffness_to,
              .set_ups = [](const CaseFile& file) { return read_set_ups(file.config.root()); },
              .read_curve = curve_reader(program),
+             .read_history = history_reader(program),
              .laws = opening_laws,
              .other_laws = with_other_laws(program.file),
              .name = program.name,

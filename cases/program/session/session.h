@@ -10,10 +10,12 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace pfdm {
 
 struct CaseFile;
+struct FieldPlace;
 struct RunnableCase;
 
 /// Of a run whose page is kept up to date: the commands that the page names.
@@ -38,7 +40,8 @@ struct Session {
   MeshStore* meshes = nullptr;       ///< where meshes are kept that several runs share
   ExportWords exports{};             ///< of cohesive
   SensitivityWords sensitivity{};
-  std::optional<LiveCommands> live{};  ///< report/index.html is kept up to date while the run goes on
+  std::optional<LiveCommands> live{};               ///< report/index.html is kept up to date while the run goes on
+  const std::vector<FieldPlace>* places = nullptr;  ///< whose displacements a run records, step by step
 };
 
 }  // namespace pfdm

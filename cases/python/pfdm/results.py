@@ -147,6 +147,13 @@ class Fit:
         upper_traction_Pa (95 %)."""
         return [read_table(self.folder / file) for file in self.content.get("posterior", {}).get("law_files", [])]
 
+    @cached_property
+    def fields(self) -> dict[str, pandas.DataFrame]:
+        """Of a fit with [[experiment.fields]], by the name of each field: a row for each place of each frame, columns
+        frame (from 1), displacement_m of the curve, x_m and y_m of the measurement, measured_x_m, model_x_m (with the
+        rigid motion of the measured ones), residual_x_m (model less measured) and likewise y, z; empty without fields."""
+        return {field["name"]: read_table(self.folder / field["file"]) for field in self.content.get("fields", [])}
+
     @property
     def case(self) -> Case:
         """The case with the estimates in place of the first guesses."""

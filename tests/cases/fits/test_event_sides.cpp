@@ -124,10 +124,12 @@ TEST(EventSides, InNoStageAreRefusedByTheFitItself) {
   std::ostringstream said;
   Log log(said, said, false, true);
   Session session{.results = directory.results(), .max_steps = {}, .until = {}, .version = "0", .log = log};
+  const MeasuredFields none;
   const CurveFitJob job{.file = file,
                         .settings = *settings,
                         .specimens = experiment->specimens,
                         .events = events,
+                        .fields = none,
                         .straight_from = 0.0,
                         .straight_to = 1e-6,
                         .set_ups = {},

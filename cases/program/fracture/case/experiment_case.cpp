@@ -196,6 +196,7 @@ std::optional<ExperimentSettings> read_experiment(const ConfigTable& root,
   if (settings.specimens.empty())
     throw table.error("no measured curve is named; at least one [[experiment.specimens]] is required");
   settings.events = read_events(table, settings.specimens);
+  settings.fields = read_field_settings(table, settings.specimens);
   for (const ConfigTable& energy : table.tables("energies"))
     settings.energies.push_back(read_energy(energy, case_directory));
   for (const ConfigTable& debonding : table.tables("debonding")) {

@@ -2,6 +2,7 @@
 // Reads [experiment]: the measured curves that a fracture case is compared with.
 
 #include "cases/program/fracture/case/event_case.h"
+#include "cases/program/fracture/case/field_case.h"
 #include "cases/program/input/config/config.h"
 #include "postproc/curves/measured_curve.h"
 #include "solver/fracture/model/energy_account.h"
@@ -41,8 +42,9 @@ struct ExperimentSettings {
   double stiffness_from = 0.0, stiffness_to = 0.0;  ///< [m]
   std::vector<MeasuredAngle> angles{};              ///< all at the same pole of the same surface
   std::vector<MeasuredEnergy> energies{};
-  std::vector<StatedEvent> events{};  ///< of the specimens' curves
-  ConfigTable where;                  ///< for messages
+  std::vector<StatedEvent> events{};    ///< of the specimens' curves
+  std::vector<FieldSettings> fields{};  ///< measured on the specimens
+  ConfigTable where;                    ///< for messages
 };
 
 /// The specimens' own curves.

@@ -1,5 +1,6 @@
 #include "cases/program/fracture/case/event_case.h"
 #include "cases/program/fracture/case/experiment_case.h"
+#include "cases/program/fracture/case/field_case.h"
 #include "cases/program/fracture/case/reduction_case.h"
 #include "cases/program/fracture/case/run_keys.h"
 #include "cases/program/input/config/csv_keys.h"
@@ -94,6 +95,8 @@ const KeyTable& experiment_keys() {
             {"events", tables(event_keys), "none", "Events of the curves, with standard deviations of their own."},
             {"reduction", keys::table(reduction_keys), "none",
              "Specimen of a fracture test, whose records are reduced to energy release rates."},
+            {"fields", tables(measured_field_keys), "none",
+             "Displacements measured on a face, as by digital image correlation."},
             {"energies", tables(energy_keys), "none", "Energies with which those of the run are compared."}},
            preparation_rows()})};
   return table;

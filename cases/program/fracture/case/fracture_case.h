@@ -12,6 +12,7 @@
 #include "cases/program/fracture/case/frame_settings.h"
 #include "cases/program/fracture/case/heat_case.h"
 #include "cases/program/fracture/case/model_choice.h"
+#include "postproc/displacements/displacement_field.h"
 #include "solver/fracture/model/fracture_model.h"
 
 #include <array>
@@ -36,6 +37,7 @@ struct FractureOutput {
   FrameSettings frames;
   std::optional<Vector> slices_through;  ///< [m]
   std::vector<TipRegion> tips;           ///< around which the energy release rate is measured
+  std::vector<FieldPlace> places{};      ///< whose displacements are recorded step by step
 };
 
 /// A box that is loaded by mean strains or stresses in place of boundary conditions; of kind "homogenize".

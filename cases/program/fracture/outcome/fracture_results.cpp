@@ -63,6 +63,7 @@ FractureResults::Files::Files(const fs::path& folder, const FractureCase& fractu
   if (const auto& tips = fracture.output.tips; !tips.empty()) energy_release.emplace(folder, tips, last_step);
   if (fracture.heat) heat.emplace(folder / heat_file, columns_of_heat(), last_step);
   if (fracture.materials.has_fatigue()) fatigue.emplace(folder / fatigue_file, columns_of_fatigue(), last_step);
+  if (!fracture.output.places.empty()) places.emplace(folder, fracture.output.places.size(), last_step);
   if (fracture.box) means.emplace(folder / means_file, columns_of_means(fracture.interfaces), last_step);
 }
 
@@ -115,6 +116,7 @@ std::vector<std::string> FractureResults::step_done(const FractureState& state, 
   if (files_->means) files_->means->append(row_of_means(report), !waits);
   if (files_->heat) files_->heat->append(row_of_heat(report), !waits);
   if (files_->fatigue) files_->fatigue->append(row_of_fatigue(report), !waits);
+  if (files_->places) record_places(state.step, output, !waits);
   if (waits) {
     waits_ = true;
     return warnings;
@@ -141,6 +143,12 @@ void FractureResults::note_debonding(const FractureState& state, const StepRepor
 CurveRow FractureResults::row_of(const StepReport& report) const {
   return curve_patch_ ? curve_row(report, *curve_patch_, fracture_.output.curve.component)
                       : curve_row_of_box(report, model_.motion.size, fracture_.box->component);
+}
+
+void FractureResults::record_places(Index step, const Output& output, bool now) {
+  if (!sampler_) sampler_.emplace(mesh_, fracture_.output.places);
+  const OutputFields fields = output();
+  files_->places->append(step, (*sampler_)(fields.displacement, fields.gradient), now);
 }
 
 /// What a run that failed, or was killed, wrote beyond its checkpoint.
@@ -179,6 +187,7 @@ void FractureResults::write_what_waits(const FractureState& state) {
     if (files_->means) files_->means->write();
     if (files_->heat) files_->heat->write();
     if (files_->fatigue) files_->fatigue->write();
+    if (files_->places) files_->places->write();
     write_state(state);
   }
   take_place(state);

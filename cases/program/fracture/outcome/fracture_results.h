@@ -10,6 +10,8 @@
 #include "postproc/cohesive/first_debonding.h"
 #include "postproc/curves/curve_csv.h"
 #include "postproc/curves/summary.h"
+#include "postproc/displacements/place_record.h"
+#include "postproc/displacements/place_sampler.h"
 #include "postproc/fields/pvd.h"
 #include "postproc/fields/vtu_writer.h"
 #include "postproc/files/new_results.h"
@@ -72,6 +74,7 @@ class FractureResults {
     std::optional<StepTable> means;
     std::optional<StepTable> heat;
     std::optional<StepTable> fatigue;
+    std::optional<PlaceRecord> places;
   };
 
   bool frame_is_due(const FractureState& state) const;
@@ -81,6 +84,7 @@ class FractureResults {
   void take_place(const FractureState& state);
   void write_frame(Index step, double load, const OutputFields& output);
   void write_interfaces(Index step, double time, const OutputFields& output);
+  void record_places(Index step, const Output& output, bool now);
   void note_debonding(const FractureState& state, const StepReport& report, const Output& output);
   CurveRow row_of(const StepReport& report) const;
   std::map<std::string, double> figures_of_debonding() const;
@@ -99,6 +103,7 @@ class FractureResults {
   std::optional<Files> files_;
   VtuWriter writer_;
   std::vector<bool> said_of_tip_;  // region by region
+  std::optional<PlaceSampler> sampler_;
   Index last_step_ = 0;
   double last_load_ = 0.0;
   CellField<double> damage_;

@@ -1,5 +1,6 @@
 #include "cases/program/fracture/page/fit_on_page.h"
 
+#include "cases/program/fracture/page/field_pictures.h"
 #include "cases/program/fracture/page/posterior_charts.h"
 #include "cases/program/session/fit_verdict.h"
 #include "cases/program/session/report_parts.h"
@@ -152,6 +153,7 @@ std::vector<PageRow> fit_on_page(const FitReport& fit, const std::filesystem::pa
   if (fit.found.posterior)
     for (Chart& chart : posterior_charts(fit, results)) charts.emplace_back(std::move(chart));
   for (PageRow& row : in_pairs(std::move(charts))) rows.push_back(std::move(row));
+  for (PageRow& row : field_rows(fit, results)) rows.push_back(std::move(row));
   return rows;
 }
 

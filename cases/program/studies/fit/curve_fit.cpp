@@ -48,14 +48,17 @@ CurveFit::CurveFit(const CurveFitJob& job, Session& session)
       session_(session),
       runs_(session.results / "runs", session),
       parameters_(parameters_of(job.settings)),
-      model_(job.file, parameters_, job.read_curve, runs_),
+      model_(job.file, parameters_, job.read_curve, job.read_history, runs_),
       finer_(finer_case(job.settings.where, job.file)),
       coarse_(coarse_case(job.settings.where, job.file)),
       coarse_runs_(session.results / "coarse_runs", session) {
   const auto read_aligned = [this](const std::filesystem::path& results) {
     return alignment_(job_.read_curve(results));
   };
-  if (coarse_) coarse_model_.emplace(coarse_->file, parameters_, read_aligned, coarse_runs_);
+  if (coarse_) coarse_model_.emplace(coarse_->file, parameters_, read_aligned, job.read_history, coarse_runs_);
+  runs_.record(job.fields.places);
+  coarse_runs_.record(job.fields.places);
+  fields_.resize(job.fields.fields.size());
   for (const CaseParameter& parameter : parameters_) first_.push_back(parameter.value);
   for (const CaseParameter& parameter : parameters_)
     is_of_set_up_.push_back(
@@ -83,6 +86,7 @@ void CurveFit::run() {
                                .runs = counts_of(runs_),
                                .tables = tables_,
                                .events = fitted_events(fitted),
+                               .fields = fitted_fields(),
                                .coarse_runs = coarse_ ? std::optional(counts_of(coarse_runs_)) : std::nullopt,
                                .seconds = watch.seconds()};
   write_curve_fit(job_, found, session_);
@@ -199,11 +203,13 @@ FitStage CurveFit::fit_stage(const CurveFitStage& stage) {
   const SampledCurve first_curve = curve_at(first_, until);
   events_ = widened_events(stage, values_, until);
   MeasuredPoints points = points_of(stage, first_curve);
+  select_frames(stage, until, points);
   say(stage, points);
   const FitSettings settings = settings_of(stage, points);
   FittedPoints fitted = fit_points(stage, points, until, settings, problem_of(stage, points, until, model_));
   weigh_specimens(stage, until, settings, points, fitted);
   widen_by_estimates(stage, until, settings, points, fitted);
+  weigh_fields(stage, until, settings, points, fitted);
   const auto& [result, problem] = fitted;
   values_ = with_stage(stage, result.values());
   for (const std::size_t j : stage.parameters) is_estimated_[j] = true;
@@ -211,7 +217,8 @@ FitStage CurveFit::fit_stage(const CurveFitStage& stage) {
                  .from = points.points.front().x,
                  .to = points.points.back().x,
                  .found = findings_of(problem.parameters, result)};
-  found.found.first_rms = rms_residual(as_recorded_by_all(first_curve, first_, until), points);
+  const auto at_first = residuals_at(first_, until, points, model_, residuals_by_points);
+  found.found.first_rms = at_first ? rms_left_by(*at_first, {}) : std::numeric_limits<double>::infinity();
   const DoneStage done{stage, points, problem, settings, result, until};
   const bool model_error = judge_stage(done, found.found);
   doubt(done, model_error, found.found);

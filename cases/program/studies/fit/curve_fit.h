@@ -6,6 +6,7 @@
 #include "cases/program/studies/fit/curve_model.h"
 #include "postproc/curves/curve_events.h"
 #include "postproc/curves/measured_curve.h"
+#include "postproc/displacements/displacement_field.h"
 
 #include <functional>
 #include <string>
@@ -25,10 +26,12 @@ struct CurveFitJob {
   const CurveFitSettings& settings;
   const std::vector<MeasuredCurve>& specimens;
   const std::vector<MeasuredEvent>& events;  ///< of the specimens' curves
+  const MeasuredFields& fields;              ///< on the specimens
   double straight_from, straight_to;         ///< displacements between which the curves should be straight [m]
   /// What the set-up adds to each specimen's curve, as a case says.
   std::function<std::vector<SetUp>(const CaseFile&)> set_ups;
   CurveModel::ReadCurve read_curve;
+  CurveModel::ReadHistory read_history{};  ///< of fits of fields
   /// Of a case's interfaces whose law is the same everywhere; none without such.
   std::function<std::vector<LawOfCase>(const CaseFile&)> laws;
   std::vector<CaseVariant> other_laws;  ///< that are tried where the residuals are more than noise

@@ -7,12 +7,14 @@
 #include "postproc/curves/curve_jumps.h"
 #include "postproc/curves/curve_misfit.h"
 #include "postproc/curves/fit_judgement.h"
+#include "postproc/displacements/field_residuals.h"
 #include "postproc/files/csv_table.h"
 
 #include <map>
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace pfdm {
@@ -67,6 +69,12 @@ class CurveFit {
   /// displacement of each specimen that computed curves reach.
   void add_events(const CurveFitStage& stage, const std::vector<double>& latest, MeasuredPoints& points);
   /// `model`: the case, or one with another law.
+  using Compared = std::optional<std::vector<double>> (*)(const ModelCurves&, const MeasuredPoints&);
+  static std::optional<std::vector<double>> residuals_by_points(const ModelCurves& models,
+                                                                const MeasuredPoints& measured);
+  /// Those of points, of events and of fields, with these values of all parameters.
+  std::optional<std::vector<double>> residuals_at(const std::vector<double>& values, std::optional<double> until,
+                                                  const MeasuredPoints& points, CurveModel& model, Compared compared);
   FitProblem problem_of(const CurveFitStage& stage, const MeasuredPoints& points, std::optional<double> until,
                         CurveModel& model);
   FitSettings settings_of(const CurveFitStage& stage, const MeasuredPoints& points);
@@ -93,6 +101,46 @@ class CurveFit {
   /// Fits again from the best of a sample, where the first guess has led nowhere. Returns whether that was better.
   bool screen(const FitProblem& problem, const FitSettings& settings, double misfit, FitResult& result);
   bool judge_stage(const DoneStage& done, FitFindings& found);
+  // Fields, in curve_fit_fields.cpp.
+
+  /// A field in a stage.
+  struct StageField {
+    std::vector<std::size_t> frames;
+    std::vector<RigidMotion> motions;  ///< of these
+    double deviation = 0.0;            ///< of a component of one point, that residuals are over [m]
+    FieldScatter scatter{};            ///< about the estimates
+  };
+  /// Computed less measured displacements of the frames of the stage, [field][frame]: (places, components) [m].
+  using FieldDifferences = std::vector<std::vector<Eigen::MatrixXd>>;
+  /// The frames of a stage: between its displacements, reached by the run, and not within three standard deviations of
+  /// a jump that is an event.
+  void select_frames(const CurveFitStage& stage, std::optional<double> until, const MeasuredPoints& points);
+  std::size_t n_field_data() const;
+  std::optional<FieldDifferences> field_differences(const std::vector<double>& values, std::optional<double> until,
+                                                    const std::vector<MeasuredEvent>& events, CurveModel& model);
+  /// Behind those of points and events: without rigid motions, over their standard deviations.
+  std::optional<std::vector<double>> field_residuals(const std::vector<double>& values, std::optional<double> until,
+                                                     const std::vector<MeasuredEvent>& events, CurveModel& model);
+  /// What the residuals at these values say of the noise; returns whether residuals are over another one now.
+  bool set_field_noise(const FieldDifferences& differences);
+  /// Fits again where the noise of a field is another one than it was taken for.
+  void weigh_fields(const CurveFitStage& stage, std::optional<double> until, const FitSettings& settings,
+                    MeasuredPoints& points, FittedPoints& fitted);
+  /// Whether the case that [fit] `finer` makes, with the estimates that it would have, leaves nothing long-ranged of a
+  /// field.
+  bool finer_explains(const DoneStage& done, const FitFindings& found, std::size_t field);
+  void doubt_fields(const DoneStage& done, FitFindings& found);
+  /// A reason where field k scatters more than its stated noise.
+  void doubt_noise(std::size_t k, FitFindings& found) const;
+  /// A reason where another scale of the displacements would explain what is left of field k, and whether it does.
+  /// `rows`: its residuals among all, first and end.
+  bool doubt_scale(const DoneStage& done, std::size_t k, const std::vector<Eigen::MatrixXd>& differences,
+                   std::pair<std::ptrdiff_t, std::ptrdiff_t> rows, FitFindings& found) const;
+  /// A reason where the residuals of field k are correlated as far as no noise is, a warning where they are so less
+  /// far.
+  void doubt_correlation(const DoneStage& done, std::size_t k, FitFindings& found);
+  /// Of the last stage, with a table each.
+  std::vector<FittedField> fitted_fields();
   std::vector<CurveFitStage>::const_iterator last_stage_of(std::size_t parameter) const;
   const CurveFitStage& last_stage_of(const MeasuredEvent& event) const;
   /// Whether an earlier stage that is not sound estimated what neither this one nor a later one does: then the whole
@@ -106,6 +154,7 @@ class CurveFit {
   void try_compliance(const DoneStage& done, std::size_t k, FitFindings& found) const;
   /// One more reason where another law, or an imperfect set-up, would explain most of what the model leaves. A straight
   /// part that misses the origin is explanation enough: then no other law is tried.
+  static std::vector<double> residuals_of_curve(const DoneStage& done);  ///< and of its events
   bool suspect_law_or_set_up(const DoneStage& done, const SampledCurve& fitted, bool misses_origin, FitFindings& found);
   std::optional<TriedLaw> other_law(const DoneStage& done);
   /// Whether the offset of force that would explain the residuals best contradicts curves that begin unloaded.
@@ -155,6 +204,7 @@ class CurveFit {
   std::vector<double> first_;               // of all parameters, the case's own [SI]
   std::vector<double> values_;              // of all parameters, as known so far [SI]
   std::vector<MeasuredEvent> events_;       // with what load steps leave open
+  std::vector<StageField> fields_;          // in the present stage, or the last one
   std::vector<bool> is_of_set_up_;          // parameters of the measured curves: no run depends on them
   std::vector<bool> is_estimated_;          // by an earlier stage
   std::vector<bool> is_doubtful_;           // estimated last by a stage that is not sound

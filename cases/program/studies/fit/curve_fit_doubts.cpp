@@ -32,6 +32,7 @@ void CurveFit::doubt(const DoneStage& done, bool model_error, FitFindings& found
   if (!(is_tried && suspect_law_or_set_up(done, fitted, !origins.empty(), found)))
     for (const std::string& origin : origins) question(found, origin);
   doubt_events(done, fitted, found);
+  doubt_fields(done, found);
   suspect_preload(found);
 }
 
@@ -44,14 +45,20 @@ void CurveFit::try_compliance(const DoneStage& done, std::size_t k, FitFindings&
   if (reason) question(found, std::move(*reason));
 }
 
+std::vector<double> CurveFit::residuals_of_curve(const DoneStage& done) {
+  const std::vector<double>& all = done.result.residuals;
+  return {all.begin(), all.begin() + static_cast<std::ptrdiff_t>(done.points.n_data())};
+}
+
 bool CurveFit::suspect_law_or_set_up(const DoneStage& done, const SampledCurve& fitted, bool misses_origin,
                                      FitFindings& found) {
   constexpr double telling_set_up = 0.5, telling_law = 0.8, alike = 1.2;  // of the rms
   const double rms = done.result.rms;
   const std::vector<std::vector<double>> errors =
       set_up_errors(as_recorded_by_all(fitted, values_, done.until), done.points);
-  const double left = rms_left_by(done.result.residuals, errors);
-  const bool is_set_up = left < telling_set_up * rms && !preloads(done, errors);
+  const std::vector<double> of_curve = residuals_of_curve(done);
+  const double left = rms_left_by(of_curve, errors);
+  const bool is_set_up = left < telling_set_up * rms_left_by(of_curve, {}) && !preloads(done, errors);
   const auto law = misses_origin && !is_set_up ? std::nullopt : other_law(done);
   if (law && law->rms < telling_law * rms && (!is_set_up || law->rms < alike * left)) {
     question(found,
@@ -78,14 +85,14 @@ std::optional<TriedLaw> CurveFit::other_law(const DoneStage& done) {
   std::vector<CurveModel> models;
   models.reserve(laws.size() + 1);
   const auto problem_with = [&](const CaseFile& file) {
-    models.emplace_back(file, parameters_, job_.read_curve, runs_);
+    models.emplace_back(file, parameters_, job_.read_curve, job_.read_history, runs_);
     return problem_of(done.stage, done.points, done.until, models.back());
   };
   return best_other_law(laws, done.result, problem_with, done.settings, session_.log);
 }
 
 bool CurveFit::preloads(const DoneStage& done, const std::vector<std::vector<double>>& errors) const {
-  const double offset = explaining_force_offset(done.result.residuals, errors);
+  const double offset = explaining_force_offset(residuals_of_curve(done), errors);
   return std::ranges::any_of(job_.specimens,
                              [&](const MeasuredCurve& s) { return contradicts_unloaded_start(s.curve, offset); });
 }
@@ -117,9 +124,8 @@ std::vector<std::string> CurveFit::missed_origins(const SampledCurve& fitted) co
 std::optional<FinerModel> CurveFit::on_finer_model(const DoneStage& done) {
   if (!finer_ || &done.stage != &job_.settings.stages.back()) return std::nullopt;
   session_.log.say(fmt::format("  at the estimates with {}", finer_->shown));
-  CurveModel model(finer_->file, parameters_, job_.read_curve, runs_);
-  const auto curve = model.respond(values_, done.until);
-  auto residuals = curve ? residuals_of(as_recorded_by_all(*curve, values_, done.until), done.points) : std::nullopt;
+  CurveModel model(finer_->file, parameters_, job_.read_curve, job_.read_history, runs_);
+  auto residuals = residuals_at(values_, done.until, done.points, model, residuals_by_points);
   if (residuals) return FinerModel{finer_->shown, std::move(*residuals)};
   session_.log.warn(fmt::format("with {} the run does not converge, or not as far as the data go", finer_->shown));
   return std::nullopt;
@@ -153,12 +159,13 @@ std::vector<ResidualSeries> CurveFit::series_of(const MeasuredPoints& points,
   std::vector<ResidualSeries> result;
   for (const MeasuredCurve& specimen : job_.specimens)
     result.push_back({.name = specimen.curve.name, .along = "displacement", .values = {}});
-  const std::size_t n = points.points.size();
+  const std::size_t n = points.points.size(), n_data = points.n_data();
   for (std::size_t i = 0; i < n; ++i) result[points.points[i].specimen].values.push_back(residuals[i]);
-  if (residuals.size() > n)
+  if (n_data > n)  // those of fields come behind, and are judged by themselves
     result.push_back({.name = "the events",
                       .along = "displacement",
-                      .values = {residuals.begin() + static_cast<std::ptrdiff_t>(n), residuals.end()}});
+                      .values = {residuals.begin() + static_cast<std::ptrdiff_t>(n),
+                                 residuals.begin() + static_cast<std::ptrdiff_t>(n_data)}});
   return result;
 }
 

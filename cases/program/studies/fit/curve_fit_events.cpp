@@ -89,7 +89,7 @@ void CurveFit::add_events(const CurveFitStage& stage, const std::vector<double>&
 
 bool CurveFit::finer_meets(const DoneStage& done, const MeasuredEvent& event, const MeasuredFigure& figure) {
   if (!finer_ || &done.stage != &job_.settings.stages.back()) return false;
-  CurveModel model(finer_->file, parameters_, job_.read_curve, runs_);
+  CurveModel model(finer_->file, parameters_, job_.read_curve, job_.read_history, runs_);
   const auto curve = model.respond(values_, done.until);
   if (!curve) return false;
   const ComputedEvent computed = computed_event(event, as_recorded_by_all(*curve, values_, done.until)[event.specimen]);

@@ -84,6 +84,24 @@ void CurveFit::say(const CurveFitStage& stage, const MeasuredPoints& points) {
                                                                    points.events.size(), points.left_out)));
 }
 
+std::optional<std::vector<double>> CurveFit::residuals_by_points(const ModelCurves& models,
+                                                                 const MeasuredPoints& measured) {
+  return residuals_of(models, measured);
+}
+
+std::optional<std::vector<double>> CurveFit::residuals_at(const std::vector<double>& values,
+                                                          std::optional<double> until, const MeasuredPoints& points,
+                                                          CurveModel& model, Compared compared) {
+  const auto curve = model.respond(values, until);
+  if (!curve) return std::nullopt;
+  auto residuals = compared(as_recorded_by_all(*curve, values, until), points);
+  if (!residuals || fields_.empty()) return residuals;
+  const auto of_fields = field_residuals(values, until, points.events, model);
+  if (!of_fields) return std::nullopt;
+  residuals->insert(residuals->end(), of_fields->begin(), of_fields->end());
+  return residuals;
+}
+
 FitProblem CurveFit::problem_of(const CurveFitStage& stage, const MeasuredPoints& points, std::optional<double> until,
                                 CurveModel& model) {
   FitProblem problem;
@@ -95,16 +113,12 @@ FitProblem CurveFit::problem_of(const CurveFitStage& stage, const MeasuredPoints
     problem.parameters.push_back(p);
   }
   problem.noise_is_known = points.noise_is_known;
-  const auto residuals_by = [this, &stage, &points, &model, until](auto compared) {
+  const auto residuals_by = [this, &stage, &points, &model, until](Compared compared) {
     return [=, this, &stage, &points, &model](std::span<const double> values) {
-      const std::vector<double> all = with_stage(stage, values);
-      const auto curve = model.respond(all, until);
-      if (!curve) return std::optional<std::vector<double>>{};
-      return compared(as_recorded_by_all(*curve, all, until), points);
+      return residuals_at(with_stage(stage, values), until, points, model, compared);
     };
   };
-  problem.residuals = residuals_by(
-      [](const ModelCurves& curves, const MeasuredPoints& measured) { return residuals_of(curves, measured); });
+  problem.residuals = residuals_by(residuals_by_points);
   problem.averaged = residuals_by(averaged_residuals_of);
   problem.prepare = [this, &stage, &model, until](const std::vector<std::vector<double>>& all) {
     std::vector<std::vector<double>> full;
@@ -120,7 +134,7 @@ FitSettings CurveFit::settings_of(const CurveFitStage& stage, const MeasuredPoin
   settings.starts = stage.starts;
   settings.screened = stage.screened;
   settings.exactness = exactness;
-  settings.cost_tolerance = least_change / static_cast<double>(points.n_data());
+  settings.cost_tolerance = least_change / static_cast<double>(points.n_data() + n_field_data());
   settings.iterated = [this, &stage](const FitIteration& iteration) {
     session_.log.say(fmt::format("  rms residual {:.5g} at {}", iteration.rms,
                                  model_.shown(with_stage(stage, iteration.parameters))));

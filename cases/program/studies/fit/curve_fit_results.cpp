@@ -123,6 +123,20 @@ void say_event(const FittedEvent& event, Log& log) {
                           f.residual, event.is_there ? "" : " (it is not in the fitted curve)"));
 }
 
+void say_field(const FittedField& field, Log& log) {
+  for (const FittedField::Frame& f : field.frames)
+    log.say(fmt::format("field {}, frame {} at {}: rms difference {} of {}, {} places", field.name, f.name,
+                        quantity_text(f.displacement, "m"), quantity_text(f.rms, "m", 3),
+                        quantity_text(f.rms_measured, "m", 3), f.places));
+  log.say(fmt::format(
+      "field {}: its {} data count with a standard deviation of {} of a point{}", field.name, field.n_data,
+      quantity_text(field.deviation, "m", 3),
+      field.inflation > 1.0
+          ? fmt::format(", {:.2g} times that of their scatter: they are correlated over {}{}", field.inflation,
+                        quantity_text(field.over, "m", 2), field.over_frames ? " and frames" : "")
+          : ""));
+}
+
 std::string counts_text(const RunCounts& runs) {
   return fmt::format("{} runs made, {} reused, {} of them did not converge", runs.made, runs.reused, runs.failed);
 }
@@ -130,6 +144,8 @@ std::string counts_text(const RunCounts& runs) {
 /// Those of what withheld intervals leave out are not written, and those of earlier fits go.
 void write_tables(const std::map<std::string, CsvTable>& tables, const FitFindings& whole, const fs::path& results) {
   std::set<std::string> kept{whole.sensitivity_file};
+  for (const auto& [file, table] : tables)
+    if (file.starts_with(field_tables)) kept.insert(file);
   if (whole.posterior) {
     kept.insert(whole.posterior->file);
     kept.insert(whole.posterior->law_files.begin(), whole.posterior->law_files.end());
@@ -138,7 +154,8 @@ void write_tables(const std::map<std::string, CsvTable>& tables, const FitFindin
     if (kept.contains(file)) write_csv(results / file, table);
   for (const fs::directory_entry& entry : fs::directory_iterator(results)) {
     const std::string file = entry.path().filename().string();
-    const bool is_table = file == "fit_posterior.csv" || (file.starts_with("fit_law_") && file.ends_with(".csv"));
+    const bool is_table = file == "fit_posterior.csv" || (file.starts_with("fit_law_") && file.ends_with(".csv")) ||
+                          (file.starts_with(field_tables) && file.ends_with(".csv"));
     if (is_table && !kept.contains(file)) fs::remove(entry.path());
   }
 }
@@ -156,6 +173,7 @@ void write_curve_fit(const CurveFitJob& job, const CurveFitFindings& found, Sess
       .found = merged(found.stages),
       .experiments = misfits(found),
       .events = found.events,
+      .fields = found.fields,
       .own = own_findings(FractureFindings{.earlier_stages = {found.stages.begin(), found.stages.end() - 1},
                                            .runs = found.runs,
                                            .coarse_runs = found.coarse_runs})};
@@ -174,6 +192,7 @@ void write_curve_fit(const CurveFitJob& job, const CurveFitFindings& found, Sess
     session.log.say(fmt::format("rms difference from {}: {}, {:.2f} % of its rms force", e.name,
                                 quantity_text(e.absolute->rms, "N"), 100.0 * e.relative));
   for (const FittedEvent& event : report.events) say_event(event, session.log);
+  for (const FittedField& field : report.fields) say_field(field, session.log);
   session.log.say(fmt::format("{}{}; {:.1f} s; {}", counts_text(found.runs),
                               found.coarse_runs ? ", of the coarse case " + counts_text(*found.coarse_runs) : "",
                               found.seconds, report.found.message));

@@ -21,6 +21,7 @@ struct CurveFitFindings {
   RunCounts runs;
   const std::map<std::string, CsvTable>& tables;  ///< by the names of their files
   std::vector<FittedEvent> events;
+  std::vector<FittedField> fields;
   std::optional<RunCounts> coarse_runs;  ///< with [fit] `coarse`
   double seconds = 0.0;
 };

@@ -4,6 +4,7 @@
 #include "cases/program/session/runnable_case.h"
 #include "cases/program/session/terminal/stop_signal.h"
 #include "postproc/curves/summary.h"
+#include "postproc/displacements/displacement_field.h"
 #include "postproc/files/atomic_file.h"
 #include "postproc/files/folder_lock.h"
 #include "postproc/files/text_file.h"
@@ -45,7 +46,13 @@ CaseRuns::CaseRuns(fs::path folder, const Session& session) : folder_(std::move(
 
 std::string CaseRuns::key_of(const CaseVariant& variant) {
   const std::vector<fs::path> data = session_.read_case(variant.file).data_files;
-  return fmt::format("{}_{}", case_hash(variant.file, data, without_influence), session_.version);
+  return fmt::format("{}{}_{}", case_hash(variant.file, data, without_influence), recorded_, session_.version);
+}
+
+void CaseRuns::record(const std::vector<FieldPlace>& places) {
+  if (places.empty()) return;
+  session_.places = &places;
+  recorded_ = fmt::format("_{:016x}", hash_of(places));
 }
 
 /// A variant that cannot be is remembered so; its key is what is shown of it.
@@ -142,7 +149,8 @@ int CaseRuns::do_run(const Wanted& wanted, int threads, Log& log) {
                   .read_case = session_.read_case,
                   .log = log,
                   .figures_only = true,
-                  .meshes = &meshes_};
+                  .meshes = &meshes_,
+                  .places = session_.places};
   const auto give_up = [&](const std::exception& failure) {
     write_file(wanted.folder / failure_file, std::string(failure.what()) + "\n");
     return run_did_not_converge;

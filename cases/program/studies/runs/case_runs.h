@@ -37,6 +37,9 @@ class CaseRuns {
  public:
   /// `folder` will hold the runs' folders. Runs are side by side on `session.threads` cores.
   CaseRuns(std::filesystem::path folder, const Session& session);
+  /// Runs record the displacements at these places, which have to stay; others than those of earlier runs make new
+  /// ones.
+  void record(const std::vector<FieldPlace>& places);
   CaseRuns(const CaseRuns&) = delete;
   CaseRuns& operator=(const CaseRuns&) = delete;
 
@@ -76,6 +79,7 @@ class CaseRuns {
   std::filesystem::path folder_;
   MeshStore meshes_;
   Session session_;
+  std::string recorded_;  // hash of the places
   std::map<std::string, DoneRun> known_;
   std::set<std::string> made_, reused_, failed_;  // keys
 };

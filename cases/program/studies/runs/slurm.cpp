@@ -14,7 +14,7 @@
 namespace pfdm {
 namespace {
 
-constexpr std::string_view in_words = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_.-";
+constexpr std::string_view of_words = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_.-";
 
 /// "4G" of "4 GB", as Slurm writes it.
 std::string read_memory(const ConfigValue& value) {
@@ -31,7 +31,7 @@ std::string read_memory(const ConfigValue& value) {
 /// It becomes a line of the script.
 std::string read_partition(const ConfigValue& value) {
   std::string text = value.string();
-  if (text.find_first_not_of(std::string(in_words) + ",:@+") != std::string::npos)
+  if (text.find_first_not_of(std::string(of_words) + ",:@+") != std::string::npos)
     throw value.error(
         "this is not a partition, or a list of them, as in \"short,long\": letters, digits and _ . : @ + - only");
   return text;
@@ -39,7 +39,7 @@ std::string read_partition(const ConfigValue& value) {
 
 std::string name_of_job(std::string name) {
   for (char& c : name)
-    if (in_words.find(c) == std::string_view::npos) c = '_';
+    if (of_words.find(c) == std::string_view::npos) c = '_';
   return name;
 }
 
