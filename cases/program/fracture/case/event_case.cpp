@@ -44,17 +44,6 @@ constexpr EventFigure figures_of_jump[] = {EventFigure::displacement, EventFigur
                                            EventFigure::force_after};
 constexpr EventFigure figures_of_greatest[] = {EventFigure::displacement, EventFigure::force};
 
-std::size_t read_specimen_of(const ConfigTable& table, const std::vector<MeasuredCurve>& specimens) {
-  const auto named = table.find("specimen");
-  if (!named) {
-    if (specimens.size() == 1) return 0;
-    throw table.error("there are several specimens: say with \"specimen\" whose event it is");
-  }
-  std::vector<std::string> names;
-  for (const MeasuredCurve& specimen : specimens) names.push_back(specimen.curve.name);
-  return static_cast<std::size_t>(std::ranges::find(names, named->one_of(names, "specimen")) - names.begin());
-}
-
 void read_figures(const ConfigTable& table, MeasuredEvent& event) {
   const auto read = [&](const auto& figures) {
     for (const EventFigure figure : figures) {
@@ -82,7 +71,7 @@ void require_displacement(const ConfigTable& table, const MeasuredEvent& event) 
 }
 
 StatedEvent read_event(const ConfigTable& table, const std::vector<MeasuredCurve>& specimens) {
-  MeasuredEvent event{.specimen = read_specimen_of(table, specimens)};
+  MeasuredEvent event{.specimen = read_specimen_of(table, specimens, "whose event it is")};
   read_stored(table, event);
   if (table.choice("event") == "greatest_force") event.kind = EventKind::greatest_force;
   if (table.choice("event") == "first_debonding") event.kind = EventKind::first_debonding;
@@ -162,6 +151,18 @@ bool is_same(const MeasuredEvent& a, const MeasuredEvent& b) {
 }
 
 }  // namespace
+
+std::size_t read_specimen_of(const ConfigTable& table, const std::vector<MeasuredCurve>& specimens,
+                             std::string_view what) {
+  const auto named = table.find("specimen");
+  if (!named) {
+    if (specimens.size() == 1) return 0;
+    throw table.error(fmt::format("there are several specimens: say with \"specimen\" {}", what));
+  }
+  std::vector<std::string> names;
+  for (const MeasuredCurve& specimen : specimens) names.push_back(specimen.curve.name);
+  return static_cast<std::size_t>(std::ranges::find(names, named->one_of(names, "specimen")) - names.begin());
+}
 
 const KeyTable& event_keys() {
   using namespace keys;

@@ -27,4 +27,9 @@ std::vector<StatedEvent> read_events(const ConfigTable& experiment, const std::v
 std::vector<MeasuredEvent> events_in_records(const std::vector<StatedEvent>& stated,
                                              const std::vector<MeasuredCurve>& specimens);
 
+/// Number of the specimen that the key "specimen" names; the only one without it. `what`: "whose event it is". Throws
+/// InputError for one that is not there, and where several could be meant.
+std::size_t read_specimen_of(const ConfigTable& table, const std::vector<MeasuredCurve>& specimens,
+                             std::string_view what);
+
 }  // namespace pfdm

@@ -1,5 +1,7 @@
 #include "cases/program/fracture/case/field_case.h"
 
+#include "cases/program/fracture/case/event_case.h"
+
 #include "cases/program/input/config/csv_keys.h"
 #include "cases/program/input/config/key_member.h"
 #include "cases/program/input/fields/amount.h"
@@ -120,17 +122,6 @@ std::vector<Key> datum_rows() {
                                  "Whether outliers from the points around them are left out.")};
 }
 
-std::size_t read_specimen_of(const ConfigTable& table, const std::vector<MeasuredCurve>& specimens) {
-  const auto named = table.find("specimen");
-  if (!named) {
-    if (specimens.size() == 1) return 0;
-    throw table.error("there are several specimens: say with \"specimen\" on which it was measured");
-  }
-  std::vector<std::string> names;
-  for (const MeasuredCurve& specimen : specimens) names.push_back(specimen.curve.name);
-  return static_cast<std::size_t>(std::ranges::find(names, named->one_of(names, "specimen")) - names.begin());
-}
-
 FieldPlane read_plane(const ConfigTable& table) {
   FieldPlane plane;
   if (!table.has("plane")) return plane;
@@ -161,7 +152,7 @@ void ask_for_all(const ConfigTable& table) {
 
 FieldSettings read_field(const ConfigTable& table, const ConfigTable& experiment,
                          const std::vector<MeasuredCurve>& specimens) {
-  const std::size_t specimen = read_specimen_of(table, specimens);
+  const std::size_t specimen = read_specimen_of(table, specimens, "on which it was measured");
   FieldSettings settings{
       .field = {.name = table.line("name"), .specimen = specimen, .plane = read_plane(table), .frames = {}},
       .selection = {},
