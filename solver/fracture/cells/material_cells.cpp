@@ -100,8 +100,8 @@ MaterialEnergy MaterialCells::energy(Index cell, const CellHistories& histories)
                                                   model_.split_of(model_.in_cell(mesh_, cell)));
   if (!gaps_.has(cell)) return energy;
   const std::span<const double> gaps = gap_numbers(cell, histories);
-  energy.locked += gaps_.locked(gaps);
-  energy.dissipated += gaps_.dissipated(gaps);
+  energy.locked += RelaxingGaps::locked(gaps);
+  energy.dissipated += RelaxingGaps::dissipated(gaps);
   return energy;
 }
 

@@ -162,7 +162,7 @@ TEST(RigidMotion, IsTakenOutOfBoth) {
   EXPECT_NEAR(motion.reduced(stretch).norm(), std::sqrt(weighted), 1e-12);
 }
 
-/// Noise of a grid, and an error of the model that bends over the whole of it: means over `width` points each way of
+/// Noise of a grid, and an error of the model that is a wave over the whole of it: means over `width` points each way of
 /// independent noise, `frames` of them with a share in common.
 FieldScatter scatter_of_noise(int width, int frames, double common, unsigned seed, double error = 0.0) {
   const Mesh mesh = box_mesh({1.0, 4, 1.0}, {1.0, 4, 1.0}, {1.0, 1, 1.0});
@@ -187,7 +187,7 @@ FieldScatter scatter_of_noise(int width, int frames, double common, unsigned see
         for (int j = 0; j < n; ++j)
           recorded.back().u[static_cast<std::size_t>(i * n + j)][k] =
               std::sqrt(1.0 - common) * own(i, j) + std::sqrt(common) * shared[static_cast<std::size_t>(k)](i, j) +
-              error * std::sin(3.14 * i / n);
+              error * std::sin(6.28 * i / n);
     }
   }
   std::vector<FieldPlace> places;

@@ -62,6 +62,7 @@ std::shared_ptr<const LoadField<Tensor>> read_eigenstrain(const ConfigValue& val
     throw value.error(
         fmt::format("expected three numbers (xx, yy, zz) or six (and yz, xz, xy), found {}", entries.size()));
   std::vector<ScalarField> parts;
+  parts.reserve(entries.size());
   for (const ConfigValue& entry : entries) parts.push_back(in_time(read_amount(entry), from_start));
   return std::make_shared<const LoadField<Tensor>>([parts](const Vector& x, double t) {
     Tensor strain = Tensor::Zero();
