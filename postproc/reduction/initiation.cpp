@@ -33,19 +33,22 @@ double scatter_about(const TestRecord& record, const StraightPart& straight, std
   return std::sqrt(sum / static_cast<double>(std::max<std::size_t>(straight.end - first, 3) - 2));
 }
 
-/// Where the record crosses the line from the origin with `compliance`, in the rows up to `last`.
+/// Where the record crosses the line from the origin with `compliance` for good, in the rows up to `last`.
 std::optional<InitiationPoint> crossing(const TestRecord& record, const StraightPart& straight, double compliance,
                                         std::size_t last) {
   const auto above = [&](std::size_t i) {
     return record.force[i] - (record.displacement[i] - straight.origin) / compliance;
   };
-  for (std::size_t i = straight.end; i <= last; ++i) {
-    if (above(i) > 0.0) continue;
-    const double before = above(i - 1), part = before > 0.0 ? before / (before - above(i)) : 0.0;
-    const auto between = [&](const std::vector<double>& v) { return v[i - 1] + part * (v[i] - v[i - 1]); };
-    return InitiationPoint{between(record.displacement), between(record.force), i - 1};
-  }
-  return std::nullopt;
+  if (above(last) > 0.0) return std::nullopt;
+  std::size_t i = last;
+  while (i > straight.end && above(i - 1) <= 0.0) --i;
+  const double before = above(i - 1), part = before > 0.0 ? before / (before - above(i)) : 0.0;
+  const auto between = [&](const std::vector<double>& v) { return v[i - 1] + part * (v[i] - v[i - 1]); };
+  return InitiationPoint{between(record.displacement), between(record.force), i - 1};
+}
+
+InitiationPoint at_row(const TestRecord& record, std::size_t row) {
+  return {record.displacement[row], record.force[row], row};
 }
 
 }  // namespace
@@ -86,10 +89,15 @@ std::optional<InitiationPoint> nonlinearity(const TestRecord& record, const Stra
   return InitiationPoint{record.displacement[row], record.force[row], row};
 }
 
-InitiationPoint five_percent_or_greatest(const TestRecord& record, const StraightPart& straight) {
+InitiationPoint five_percent_or_greatest(const TestRecord& record, const StraightPart& straight,
+                                         const SecantRule& rule) {
   const std::size_t top = straight.row_of_greatest;
-  if (const auto point = crossing(record, straight, 1.05 * straight.compliance, top)) return *point;
-  return {record.displacement[top], record.force[top], top};
+  const auto point = crossing(record, straight, rule.compliance * straight.compliance, top);
+  if (!point) return at_row(record, top);
+  const auto first = record.force.begin();
+  const auto before = std::max_element(first, first + static_cast<std::ptrdiff_t>(point->row) + 1);
+  const bool is_greater = rule.or_greater_before && *before > point->force;
+  return is_greater ? at_row(record, static_cast<std::size_t>(before - first)) : *point;
 }
 
 }  // namespace pfdm

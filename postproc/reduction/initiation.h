@@ -10,7 +10,7 @@ namespace pfdm {
 /// The straight part of a record: from 10 to 50 % of the greatest force, on the way to it.
 struct StraightPart {
   double compliance = not_given;  ///< C0 [m/N]
-  double origin = not_given;      ///< displacement at zero force [m]
+  double origin = not_given;      ///< displacement at zero force [m]; 0 in a ReducedTest
   double greatest_force = not_given;
   std::size_t row_of_greatest = 0;
   std::size_t end = 0;  ///< the row after its last
@@ -28,7 +28,15 @@ struct InitiationPoint {
 /// force and more than three times the scatter about the line. Nothing where it does not before the greatest force.
 std::optional<InitiationPoint> nonlinearity(const TestRecord& record, const StraightPart& straight);
 
-/// 5 %/MAX: where the secant compliance is 5 % above C0, or the greatest force if that comes first.
-InitiationPoint five_percent_or_greatest(const TestRecord& record, const StraightPart& straight);
+/// The secant of 5 %/MAX as the standard of a specimen has it.
+struct SecantRule {
+  double compliance = 1.05;        ///< over C0: ASTM D5528, 12.1.3; 1/0.95 where the slope is 95 %, E399, 9.1.1
+  bool or_greater_before = false;  ///< a larger force before the secant is taken instead: P_Q of E399
+};
+
+/// 5 %/MAX: where the record crosses the secant last before its greatest force, so that noise does not cross it first;
+/// the greatest force where the record is still above the secant.
+InitiationPoint five_percent_or_greatest(const TestRecord& record, const StraightPart& straight,
+                                         const SecantRule& rule = {});
 
 }  // namespace pfdm

@@ -1,5 +1,8 @@
+#include "physics/quantity_text.h"
 #include "postproc/reduction/beam_terms.h"
 #include "postproc/reduction/test_methods.h"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -38,18 +41,28 @@ CalibratedMethod without_lengths() {
   return {.missing = "needs crack lengths at two points of growth or more (crack_length of the record)"};
 }
 
+/// Of a line whose root lies behind the load line, at `shift` < 0: no crack acts shorter than it is.
+std::string remark_on_shift(double shift) {
+  if (!(shift < 0.0)) return "";
+  return fmt::format(
+      "the crack lengths look too long: the line of (C/N)^(1/3) meets zero at a = {}; Delta of modified_beam_theory "
+      "counts as zero (ISO 15024)",
+      quantity_text(-shift, "m", 3));
+}
+
 CalibratedMethod opening_modified_beam_theory(const CalibrationData& data) {
   const Calibration points = calibration_of(data);
   const FittedLine line = fitted_line(points.lengths, each(points.compliances, std::cbrt));
   if (std::isnan(line.slope)) return without_lengths();
-  const double delta = std::abs(line.intercept / line.slope);
+  const double shift = line.intercept / line.slope, delta = std::max(shift, 0.0);
   const TestDimensions& s = data.specimen;
   const double h = s.arm(), m = line.slope, modulus = 8.0 / (m * m * m * s.width * h * h * h);
   return {.at =
               [=](double P, double d, double a) {
                 return Reduced{1.5 * P * d / (s.width * (a + delta)) * correction(s, d, a), a};
               },
-          .constants = {{"Delta", "m", delta}, {"E_flexural", "Pa", modulus}}};
+          .constants = {{"Delta", "m", delta}, {"E_flexural", "Pa", modulus}},
+          .remark = remark_on_shift(shift)};
 }
 
 CalibratedMethod opening_compliance_calibration(const CalibrationData& data) {
@@ -115,12 +128,12 @@ CalibratedMethod opening_equivalent_crack(const CalibrationData& data) {
                                                   {"shear_modulus", s.shear_modulus}});
   if (!missing.empty()) return {.missing = missing};
   const OpeningModulus flexural = opening_flexural_modulus(data);
-  const double h = s.arm(), E = flexural.modulus, origin = data.straight.origin;
+  const double h = s.arm(), E = flexural.modulus;
   if (!(E > 0.0)) return {.missing = "the initial compliance is less than that of the arms' shear alone"};
   return {.at =
               [=](double P, double d, double) {
                 const double a = equivalent_length(8.0 / (E * s.width * h * h * h),
-                                                   12.0 / (5.0 * s.width * h * s.shear_modulus), (d - origin) / P);
+                                                   12.0 / (5.0 * s.width * h * s.shear_modulus), d / P);
                 const double G =
                     6.0 * P * P / (s.width * s.width * h) * (2.0 * a * a / (h * h * E) + 1.0 / (5.0 * s.shear_modulus));
                 return Reduced{G, a - flexural.delta};
@@ -130,7 +143,7 @@ CalibratedMethod opening_equivalent_crack(const CalibrationData& data) {
 
 constexpr ReductionMethod opening_methods[] = {
     {"modified_beam_theory",
-     "ASTM D5528 (MBT), ISO 15024 (CBT): G = 3 P d/(2 b (a + |Delta|)) F/N, Delta by the line of (C/N)^(1/3) over a",
+     "ASTM D5528 (MBT), ISO 15024 (CBT): G = 3 P d/(2 b (a + Delta)) F/N, Delta >= 0 by the line of (C/N)^(1/3) over a",
      true, opening_modified_beam_theory},
     {"compliance_calibration", "ASTM D5528 (CC; Berry): G = n P d/(2 b a) F/N, n the slope of log C/N over log a", true,
      opening_compliance_calibration},

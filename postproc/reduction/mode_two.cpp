@@ -20,7 +20,7 @@ CalibratedMethod shear_compliance_calibration(const CalibrationData& data) {
   if (cubes.empty())
     for (const std::size_t i : data.grown) {
       cubes.push_back(cube(data.record.crack_length[i]));
-      compliances.push_back((data.record.displacement[i] - data.straight.origin) / data.record.force[i]);
+      compliances.push_back(data.record.displacement[i] / data.record.force[i]);
     }
   const FittedLine line = fitted_line(cubes, compliances);
   if (std::isnan(line.slope))
@@ -36,8 +36,8 @@ CalibratedMethod shear_compliance_calibration(const CalibrationData& data) {
 
 CalibratedMethod shear_direct_beam_theory(const CalibrationData& data) {
   const TestDimensions& s = data.specimen;
-  return {.at = [b = s.width, L = s.half_span, origin = data.straight.origin](double P, double d, double a) {
-    return Reduced{4.5 * a * a * P * (d - origin) / (b * (2.0 * cube(L) + 3.0 * cube(a))), a};
+  return {.at = [b = s.width, L = s.half_span](double P, double d, double a) {
+    return Reduced{4.5 * a * a * P * d / (b * (2.0 * cube(L) + 3.0 * cube(a))), a};
   }};
 }
 
@@ -81,12 +81,12 @@ CalibratedMethod shear_equivalent_crack(const CalibrationData& data) {
   const std::string missing = missing_dimensions({{"shear_modulus", s.shear_modulus}});
   if (!missing.empty()) return {.missing = missing};
   const double h = s.arm(), L = s.half_span, shear = shear_compliance(s), b = s.width;
-  const double bending = data.straight.compliance - shear, origin = data.straight.origin;
+  const double bending = data.straight.compliance - shear;
   if (!(bending > 0.0)) return {.missing = "the initial compliance is less than that of the beam's shear alone"};
   const double E = (3.0 * cube(s.crack_length) + 2.0 * cube(L)) / (8.0 * b * cube(h) * bending);
   return {.at =
               [=, a0 = s.crack_length](double P, double d, double) {
-                const double ratio = ((d - origin) / P - shear) / bending;
+                const double ratio = (d / P - shear) / bending;
                 const double a = std::cbrt(ratio * cube(a0) + 2.0 / 3.0 * (ratio - 1.0) * cube(L));
                 if (a > nearest_to_nose * L) return Reduced{not_given, a};  // beams of another kind
                 return Reduced{9.0 * P * P * a * a / (16.0 * b * b * cube(h) * E), a};

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace pfdm {
 namespace {
@@ -20,11 +21,29 @@ bool was_read(const TestRecord& record, std::size_t row) {
   return !record.crack_length.empty() && std::isfinite(record.crack_length[row]);
 }
 
-std::vector<std::size_t> rows_with_growth(const TestRecord& record, std::size_t from) {
+/// Whether the specimen still carries.
+bool carries(const ReducedTest& test, std::size_t row) {
+  return test.record.force[row] >= least_share * test.straight.greatest_force;
+}
+
+/// From the first point of initiation on, before the specimen has failed.
+std::vector<std::size_t> rows_with_growth(const ReducedTest& test) {
+  std::size_t from = test.five_percent.row;
+  if (test.nonlinearity) from = std::min(from, test.nonlinearity->row);
   std::vector<std::size_t> rows;
-  for (std::size_t i = from; i < record.n_rows(); ++i)
-    if (was_read(record, i) && record.force[i] > 0.0) rows.push_back(i);
+  for (std::size_t i = from; i < test.record.n_rows(); ++i)
+    if (was_read(test.record, i) && carries(test, i)) rows.push_back(i);
   return rows;
+}
+
+std::optional<InitiationPoint> seen_first(const TestRecord& record, double first_length) {
+  constexpr double rounding = 1e-6;
+  const bool has_gaps = std::ranges::any_of(record.crack_length, [](double length) { return !std::isfinite(length); });
+  const double least = has_gaps ? 0.0 : (1.0 + rounding) * first_length;
+  const auto seen = std::ranges::find_if(record.crack_length, [=](double length) { return length > least; });
+  if (seen == record.crack_length.end()) return std::nullopt;
+  const auto row = static_cast<std::size_t>(seen - record.crack_length.begin());
+  return InitiationPoint{record.displacement[row], record.force[row], row};
 }
 
 Reduced at_point(const CalibratedMethod& method, const InitiationPoint& point, double crack_length) {
@@ -34,8 +53,8 @@ Reduced at_point(const CalibratedMethod& method, const InitiationPoint& point, d
 std::vector<ReducedPoint> points_of(const CalibratedMethod& method, bool needs_lengths, const ReducedTest& test) {
   std::vector<ReducedPoint> points;
   const TestRecord& record = test.record;
-  for (std::size_t i = test.five_percent.row; i < record.n_rows(); ++i) {
-    if (record.force[i] < least_share * test.straight.greatest_force) continue;
+  for (std::size_t i = test.five_percent.row + 1; i < record.n_rows(); ++i) {
+    if (!carries(test, i)) continue;
     if (needs_lengths && !was_read(record, i)) continue;
     const Reduced found =
         method.at(record.force[i], record.displacement[i], needs_lengths ? record.crack_length[i] : not_given);
@@ -63,10 +82,11 @@ Propagation propagation_of(const std::vector<ReducedPoint>& points, std::size_t 
   return found;
 }
 
-ReducedByMethod reduced_by(const ReductionMethod& method, const CalibrationData& data, const ReducedTest& test) {
+ReducedByMethod reduced_by(const ReductionMethod& method, const CalibrationData& data, ReducedTest& test) {
   ReducedByMethod result{.name = method.name, .source = method.source};
   const CalibratedMethod calibrated = method.calibrate(data);
   result.missing = calibrated.missing;
+  if (!calibrated.remark.empty()) test.remarks.push_back(calibrated.remark);
   if (!calibrated.at) return result;
   const double a0 = data.specimen.crack_length;
   result.constants = calibrated.constants;
@@ -78,9 +98,9 @@ ReducedByMethod reduced_by(const ReductionMethod& method, const CalibrationData&
   return result;
 }
 
-/// Of a double cantilever beam without end blocks.
+/// Of a double cantilever beam whose end blocks are not given.
 void remark_on_large_displacement(ReducedTest& test, const TestDimensions& s) {
-  if (test.specimen != "double_cantilever_beam" || !std::isnan(s.block_offset)) return;
+  if (test.specimen != "double_cantilever_beam" || !std::isnan(s.block_offset + s.block_length)) return;
   double least = 1.0;
   for (std::size_t i = 0; i < test.record.n_rows(); ++i)
     if (was_read(test.record, i))
@@ -94,11 +114,11 @@ void remark_on_large_displacement(ReducedTest& test, const TestDimensions& s) {
 
 void remark_on(ReducedTest& test) {
   const double reach = test.record.displacement[test.straight.row_of_greatest];
-  if (std::abs(test.straight.origin) > noticeable_origin * std::abs(reach))
+  if (std::abs(test.origin) > noticeable_origin * std::abs(reach))
     test.remarks.push_back(
-        fmt::format("the straight part of the record meets zero force at {}: toe or offset in "
-                    "[experiment] takes that out",
-                    quantity_text(test.straight.origin, "m")));
+        fmt::format("the straight part of the record meets zero force at {}, which is taken as the origin here; a fit "
+                    "has it by toe or offset in [experiment] alone",
+                    quantity_text(test.origin, "m")));
   if (test.straight.row_of_greatest + 1 == test.record.n_rows())
     test.remarks.emplace_back("the force still rises at the end of the record: nothing is known of propagation");
 }
@@ -110,15 +130,12 @@ ReducedTest reduced_test(const ReducedSpecimen& specimen, TestRecord record, con
   ReducedTest test{
       .name = std::move(name), .specimen = std::string(specimen.name), .record = std::move(record), .straight = {}};
   test.straight = straight_part(test.record);
+  test.origin = std::exchange(test.straight.origin, 0.0);
+  for (double& d : test.record.displacement) d -= test.origin;
   test.nonlinearity = nonlinearity(test.record, test.straight);
-  test.five_percent = five_percent_or_greatest(test.record, test.straight);
-  const std::size_t begin =
-      std::min(test.nonlinearity ? test.nonlinearity->row : test.five_percent.row, test.five_percent.row);
-  const CalibrationData data{test.record, dimensions, test.straight, rows_with_growth(test.record, begin)};
-  if (!data.grown.empty()) {
-    const std::size_t row = data.grown.front();
-    test.visual = InitiationPoint{test.record.displacement[row], test.record.force[row], row};
-  }
+  test.five_percent = five_percent_or_greatest(test.record, test.straight, specimen.secant);
+  test.visual = seen_first(test.record, dimensions.crack_length);
+  const CalibrationData data{test.record, dimensions, test.straight, test.five_percent, rows_with_growth(test)};
   for (const ReductionMethod& method : specimen.methods()) test.methods.push_back(reduced_by(method, data, test));
   remark_on(test);
   remark_on_large_displacement(test, dimensions);

@@ -33,9 +33,11 @@ struct ReducedByMethod {
 struct ReducedTest {
   std::string name;      ///< of the record
   std::string specimen;  ///< "double_cantilever_beam"
-  TestRecord record{};
+  TestRecord record{};   ///< its displacements count from the origin of the straight part
+  double origin = 0.0;   ///< what was taken from them for that [m]
   StraightPart straight{};
-  std::optional<InitiationPoint> nonlinearity{}, visual{};  ///< visual: the first row with a crack length
+  /// visual: the first row whose crack is longer than at first; where lengths have gaps, the first that was read.
+  std::optional<InitiationPoint> nonlinearity{}, visual{};
   InitiationPoint five_percent{};
   std::vector<ReducedByMethod> methods{};
   std::vector<std::string> remarks{};  ///< what is doubtful, a sentence each

@@ -47,7 +47,7 @@ Json to_json(const ReducedByMethod& method) {
 Json to_json(const ReducedTest& test) {
   Json json = {{"name", test.name}, {"specimen", test.specimen}};
   json["initial_compliance_m_per_N"] = test.straight.compliance;
-  json["origin_m"] = test.straight.origin;
+  json["origin_m"] = test.origin;
   json["greatest_force_N"] = test.straight.greatest_force;
   json["initiation"] = {{"NL", to_json(test.nonlinearity)},
                         {"VIS", to_json(test.visual)},
@@ -60,6 +60,8 @@ Json to_json(const ReducedTest& test) {
 
 CsvTable points_table(std::span<const ReducedTest> tests) {
   CsvTable table;
+  table.comments = {" points behind 5 %/MAX; row: of the record as [experiment] prepares it, from 1",
+                    " displacement: from the origin, at which the straight part meets zero force (origin_m)"};
   for (const char* name :
        {"test", "method", "row", "displacement_m", "force_N", "crack_length_m", "G_J_per_m2", "mode_two_share"})
     table.add(name, {});

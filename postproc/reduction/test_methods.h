@@ -29,14 +29,16 @@ struct CalibratedMethod {
   std::function<Reduced(double force, double displacement, double crack_length)> at{};
   std::vector<ReductionConstant> constants{};
   std::string missing{};  ///< why there is no `at`: what has to be given
+  std::string remark{};   ///< what is doubtful, a sentence; or empty
 };
 
-/// What methods are calibrated with.
+/// What methods are calibrated with. Displacements count from the origin of the straight part.
 struct CalibrationData {
   const TestRecord& record;
   const TestDimensions& specimen;
   StraightPart straight;
-  std::vector<std::size_t> grown;  ///< rows with a crack length, from initiation on
+  InitiationPoint five_percent;
+  std::vector<std::size_t> grown;  ///< rows with a crack length, from initiation to failure
 };
 
 struct ReductionMethod {
@@ -55,6 +57,7 @@ std::span<const ReductionMethod> compact_tension_methods();
 struct ReducedSpecimen {
   std::string_view name, description;
   std::span<const ReductionMethod> (*methods)();
+  SecantRule secant{};
 };
 std::span<const ReducedSpecimen> reduced_specimens();
 

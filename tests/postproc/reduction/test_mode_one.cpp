@@ -165,7 +165,7 @@ TEST(ReducedRecords, SayThatTheFactorAloneIsTooSmall) {
   TestDimensions blocks = laminate();
   EXPECT_THAT(reduced(record, blocks).remarks, testing::Contains(testing::HasSubstr("F of the standard takes")));
   blocks.block_offset = blocks.block_length = 0.0;
-  EXPECT_THAT(reduced(record, blocks).remarks, testing::IsEmpty());
+  EXPECT_THAT(reduced(record, blocks).remarks, testing::Not(testing::Contains(testing::HasSubstr("F of the"))));
 }
 
 }  // namespace
