@@ -15,6 +15,7 @@
 #include "cases/program/session/terminal/message_text.h"
 #include "cases/program/session/terminal/stop_signal.h"
 #include "cases/program/specimens/new_specimen.h"
+#include "cases/program/specimens/specimen_file.h"
 #include "cases/program/studies/sweep/comparison_page.h"
 #include "cases/program/studies/sweep/sweep_on_slurm.h"
 #include "postproc/files/atomic_file.h"
@@ -157,7 +158,19 @@ void do_case(const CommandLine& line, std::ostream& out, std::ostream& err, bool
   }
 }
 
+/// What --specimen would pass over.
+void require_name_of_specimen(const CommandLine& line) {
+  const bool lists = line.specimen->empty() || line.new_directory.empty();
+  if (!lists || (line.new_directory.empty() && line.records.empty() && line.set.empty())) return;
+  throw InputError(fmt::format(
+      "init: {}, as in: pfdm init my_test --specimen double_cantilever_beam --data record.csv",
+      line.specimen->empty()
+          ? fmt::format("--specimen needs the name of one ({})", fmt::join(specimen_names(shipped_cases()), ", "))
+          : "a new directory is required beside --specimen, --data and --set"));
+}
+
 void do_specimen(const CommandLine& line, std::ostream& out) {
+  require_name_of_specimen(line);
   if (line.specimen->empty()) return list_specimens(shipped_cases(), out);
   if (line.new_directory.empty()) return list_specimen_values(shipped_cases(), *line.specimen, out);
   require_empty(line.new_directory);

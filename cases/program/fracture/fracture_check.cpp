@@ -1,5 +1,6 @@
 #include "cases/program/fracture/fracture_check.h"
 
+#include "cases/program/fracture/fracture_reduction.h"
 #include "cases/program/fracture/outcome/fracture_results.h"
 #include "cases/program/fracture/run_estimate.h"
 #include "cases/program/session/terminal/stopwatch.h"
@@ -143,6 +144,7 @@ void check_fracture(const FractureProgram& program, Session& session) {
   log.say(time_words(mesh, run.model(), loading, session.results, program.hash));
   if (program.fit) check_fit(program, log);
   if (program.fit && program.experiment) fields_of_fit(program, mesh, log);
+  can_be_reduced(program, log);
   for (const ColumnSet& set : columns)
     log.say(fmt::format("cohesive law of \"{}\" from {} columns", set.name, set.columns.size()));
   log.say(fmt::format("results go to {}", session.results.string()));

@@ -232,6 +232,7 @@ void fit(const FractureProgram& program, Session& session) {
     MeshStore own;
     fields = fields_of_fit(program, find_mesh(program, own, session.log), session.log);
   }
+  const bool is_reduced = can_be_reduced(program, session.log);
   fit_curve({.file = program.file,
              .settings = *program.fit,
              .specimens = experiment.specimens,
@@ -248,7 +249,7 @@ void fit(const FractureProgram& program, Session& session) {
              .hash = program.hash,
              .title = program.fracture.title},
             session);
-  if (program.reduction) reduce_tests(program, session);
+  if (is_reduced) reduce_tests(program, session);
 }
 
 CasePage page_of(const FractureProgram& program, const Session& session) {

@@ -1,5 +1,6 @@
 #include "cases/program/fracture/fracture_reduction.h"
 
+#include "physics/error.h"
 #include "postproc/curves/fit_json.h"
 #include "postproc/files/folder_lock.h"
 #include "postproc/reduction/reduction_results.h"
@@ -34,6 +35,17 @@ std::string words_of(const ReductionReport::Fitted& fitted) {
 }
 
 }  // namespace
+
+bool can_be_reduced(const FractureProgram& program, Log& log) {
+  if (!program.reduction) return false;
+  try {
+    reduced_tests(*program.reduction);
+    return true;
+  } catch (const InputError& error) {
+    log.warn(fmt::format("{}; pfdm reduce needs that, runs and fits do not", error.what()));
+    return false;
+  }
+}
 
 void reduce_tests(const FractureProgram& program, Session& session) {
   const std::vector<ReducedTest> tests = reduced_tests(*program.reduction);

@@ -5,6 +5,8 @@
 #include "physics/error.h"
 #include "physics/quantity_text.h"
 #include "postproc/files/csv_table.h"
+#include "postproc/files/csv_words.h"
+#include "postproc/files/text_file.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -12,6 +14,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <compare>
 #include <optional>
 
 namespace pfdm {
@@ -25,7 +28,9 @@ struct RecordedQuantity {
   std::string_view unit;  ///< where the file has none
   std::size_t place;      ///< of the column in a file without names
   bool is_required;
-  std::vector<std::string_view> names;
+  std::vector<std::string_view> names;   ///< whole words
+  std::vector<std::string_view> others;  ///< words of columns that are something else
+  std::string_view symbol{};             ///< a whole name, where its unit is stated
 };
 
 const std::vector<RecordedQuantity>& recorded_quantities() {
@@ -36,39 +41,105 @@ const std::vector<RecordedQuantity>& recorded_quantities() {
        "mm",
        2,
        false,
-       {"crack", "risslänge", "risslaenge", "a (mm)", "a_mm"}},
+       {"crack", "cracklength", "risslänge", "risslaenge"},
+       {"opening", "displacement", "cod", "cmod", "ctod", "extension", "growth", "increment", "rate", "speed",
+        "velocity", "step", "time"},
+       "a"},
       {"displacement",
        "displacement_column",
        &dimension::length,
        "mm",
        0,
        true,
-       {"displacement", "opening", "extension", "deflection", "crosshead", "stroke", "standardweg", "traverse", "weg",
-        "cod", "disp"}},
-      {"force", "force_column", &dimension::force, "N", 1, true, {"force", "load", "standardkraft", "kraft"}}};
+       {"displacement", "opening", "extension", "deflection", "crosshead", "stroke", "standardweg", "traverse",
+        "traversenweg", "weg", "cod", "disp"},
+       {"growth", "length", "rate", "speed", "velocity", "step", "time"}},
+      {"force",
+       "force_column",
+       &dimension::force,
+       "N",
+       1,
+       true,
+       {"force", "load", "standardkraft", "kraft"},
+       {"displacement", "opening", "extension", "deflection", "growth", "length", "rate", "step", "time"}}};
   return all;
 }
 
-std::string lower(std::string text) {
-  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return text;
+/// Unit of a column that the file states: in the row of units, in brackets or behind the last _ of its name.
+struct StatedUnit {
+  std::string text{};                                                    ///< empty: none
+  enum class Is { due, missing, unknown, of_another } is = Is::missing;  ///< better ones first
+};
+
+StatedUnit stated_unit(const CsvTable& table, std::size_t column, const Dimension& due) {
+  using Is = StatedUnit::Is;
+  const auto judged = [&](const std::string& text) {
+    return StatedUnit{text, is_unit_of(text, due) ? Is::due : is_unit(text) ? Is::of_another : Is::unknown};
+  };
+  if (!table.units.empty() && !table.units[column].empty() && table.units[column] != "-")
+    return judged(table.units[column]);
+  const std::string& name = table.names[column];
+  if (const auto bracketed = bracketed_end(name)) return judged(*bracketed);
+  const std::size_t end = name.rfind('_');
+  const std::string suffix = end == std::string::npos ? "" : name.substr(end + 1);
+  return is_unit_of(suffix, due) ? StatedUnit{suffix, Is::due} : StatedUnit{};  // force_a has no unit of area
 }
 
+/// "Crack", "opening" of "Crack-opening [mm]", in small letters; bytes above ASCII are letters.
+std::vector<std::string> words_of(std::string_view name) {
+  std::vector<std::string> words(1);
+  for (const char c : name) {
+    const auto byte = static_cast<unsigned char>(c);
+    const bool ends = std::isupper(byte) != 0 && !words.back().empty() &&
+                      std::islower(static_cast<unsigned char>(words.back().back())) != 0;
+    const bool is_letter = std::isalnum(byte) != 0 || byte >= 0x80;
+    if ((!is_letter || ends) && !words.back().empty()) words.emplace_back();
+    if (is_letter) words.back() += c;
+  }
+  for (std::string& word : words) word = lower_case(word);
+  return words;
+}
+
+/// How well a column's name tells the quantity: the place in `names`, or nothing.
+std::optional<std::size_t> place_among_names(const std::string& name, const RecordedQuantity& quantity,
+                                             bool states_unit) {
+  const std::vector<std::string> words = words_of(without_unit(name));
+  const auto has = [&](std::string_view word) { return std::ranges::find(words, word) != words.end(); };
+  if (std::ranges::any_of(quantity.others, has)) return std::nullopt;
+  const bool is_growth = quantity.key == "displacement" && has("crack") && !has("opening") && !has("displacement");
+  if (is_growth) return std::nullopt;  // "Crack extension"
+  const auto found = std::ranges::find_if(quantity.names, has);
+  if (found != quantity.names.end()) return static_cast<std::size_t>(found - quantity.names.begin());
+  const bool is_symbol = states_unit && !quantity.symbol.empty() && words.front() == quantity.symbol;
+  return is_symbol ? std::optional(quantity.names.size()) : std::nullopt;
+}
+
+struct Candidate {
+  StatedUnit::Is unit;
+  std::size_t place, column;
+  auto operator<=>(const Candidate&) const = default;
+};
+
+InputError of_unknown_unit(const std::filesystem::path& csv, const std::string& name, const std::string& unit,
+                           const Dimension& due) {
+  return InputError(
+      fmt::format("{}: the unit \"{}\" of column \"{}\" is not known; the file must name {}, as in \"{}\"",
+                  csv.string(), unit, name, with_article(due.name), unit_of(due.example)));
+}
+
+/// The column of a quantity: stated units of its dimension come first, columns of other dimensions never.
 std::optional<std::size_t> column_of(const CsvTable& table, const RecordedQuantity& quantity,
                                      const std::vector<std::size_t>& taken) {
   if (!table.has_names()) return quantity.place < table.columns.size() ? std::optional(quantity.place) : std::nullopt;
-  for (const std::string_view name : quantity.names)
-    for (std::size_t i = 0; i < table.names.size(); ++i)
-      if (lower(table.names[i]).find(name) != std::string::npos && std::ranges::count(taken, i) == 0) return i;
-  return std::nullopt;
-}
-
-/// Unit of a column that the file states, in whichever of its three places.
-std::string stated_unit(const CsvTable& table, std::size_t column, const Dimension& due) {
-  if (!table.units.empty() && is_unit_of(table.units[column], due)) return table.units[column];
-  const std::string& name = table.names[column];
-  const std::size_t end = name.rfind('_');
-  return end != std::string::npos && is_unit_of(name.substr(end + 1), due) ? name.substr(end + 1) : "";
+  std::vector<Candidate> candidates;
+  for (std::size_t i = 0; i < table.names.size(); ++i) {
+    const StatedUnit unit = stated_unit(table, i, *quantity.due);
+    if (std::ranges::count(taken, i) > 0 || unit.is == StatedUnit::Is::of_another) continue;
+    if (const auto place = place_among_names(table.names[i], quantity, unit.is == StatedUnit::Is::due))
+      candidates.push_back({unit.is, *place, i});
+  }
+  if (candidates.empty()) return std::nullopt;
+  return std::ranges::min(candidates).column;
 }
 
 struct FoundColumn {
@@ -78,17 +149,30 @@ struct FoundColumn {
   std::vector<double> values;  ///< SI
 };
 
-FoundColumn found_column(const CsvTable& table, const RecordedQuantity& quantity, std::size_t column) {
+FoundColumn found_column(const std::filesystem::path& csv, const CsvTable& table, const RecordedQuantity& quantity,
+                         std::size_t column) {
   table.require_numbers(column);
-  FoundColumn found{&quantity, column, "", stated_unit(table, column, *quantity.due), table.columns[column]};
+  const StatedUnit stated = stated_unit(table, column, *quantity.due);
+  const std::string& name = table.names[column];
+  if (stated.is == StatedUnit::Is::unknown) throw of_unknown_unit(csv, name, stated.text, *quantity.due);
+  if (stated.is == StatedUnit::Is::of_another)
+    throw InputError(fmt::format("{}: column \"{}\" is no {}: its unit is \"{}\"", csv.string(), name,
+                                 quantity.due->name, stated.text));
+  FoundColumn found{&quantity, column, "", stated.text, table.columns[column]};
   found.unit = found.stated.empty() ? std::string(quantity.unit) : found.stated;
   for (double& value : found.values) value *= unit_in_si(found.unit, *quantity.due);
   return found;
 }
 
 InputError not_recognised(const std::filesystem::path& csv, const CsvTable& table, const RecordedQuantity& quantity) {
-  return InputError(fmt::format("{}: no column of it is known for a {}; --set {}=NAME says which one is (columns: {})",
-                                csv.string(), quantity.key, quantity.word, fmt::join(table.names, ", ")));
+  std::string refused;
+  for (std::size_t i = 0; i < table.names.size(); ++i)
+    if (stated_unit(table, i, *quantity.due).is == StatedUnit::Is::of_another &&
+        place_among_names(table.names[i], quantity, false))
+      refused += fmt::format("; \"{}\" is no {}", table.names[i], quantity.due->name);
+  return InputError(
+      fmt::format("{}: no column of it is known for a {}{}; --set {}=NAME says which one is (columns: {})",
+                  csv.string(), quantity.key, refused, quantity.word, fmt::join(table.names, ", ")));
 }
 
 std::vector<FoundColumn> found_columns(const std::filesystem::path& csv, const CsvTable& table,
@@ -102,7 +186,7 @@ std::vector<FoundColumn> found_columns(const std::filesystem::path& csv, const C
     if (!column && quantity.is_required) throw not_recognised(csv, table, quantity);
     if (!column) continue;
     taken.push_back(*column);
-    found.push_back(found_column(table, quantity, *column));
+    found.push_back(found_column(csv, table, quantity, *column));
   }
   return found;
 }

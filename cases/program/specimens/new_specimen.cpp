@@ -45,7 +45,7 @@ double last_reduced(const std::vector<ReducedTest>& tests) {
   for (const ReducedTest& test : tests)
     for (const ReducedByMethod& method : test.methods)
       if (method.name == "equivalent_crack" && !method.points.empty())
-        last = std::max(last, test.record.displacement[method.points.back().row]);
+        last = std::max(last, test.origin + test.record.displacement[method.points.back().row]);
   return last;
 }
 
@@ -69,19 +69,17 @@ RecordFindings findings_of(const std::string& text, bool has_reduction) {
   return found;
 }
 
-/// Where the straight part of the first record lies, and the toe where it misses the origin.
-std::string straight_keys(const RecordFindings& found, const std::string& keys) {
+/// Where the straight part of the first record lies, whose toe is taken off.
+std::string straight_keys(const RecordFindings& found, bool has_toe) {
   const StraightPart& straight = found.straight.front();
   const auto at = [&](double share) { return straight.compliance * share * straight.greatest_force; };
-  const double origin = keys.empty() ? straight.origin : 0.0;
-  std::string text =
-      fmt::format("stiffness_between = [\"{}\", \"{}\"]   # from 10 to 50 % of the greatest force\n",
-                  quantity_text(origin + at(straight_from), "m"), quantity_text(origin + at(straight_to), "m"));
-  return text + keys;
+  const double origin = has_toe ? 0.0 : straight.origin;
+  return fmt::format("stiffness_between = [\"{}\", \"{}\"]   # from 10 to 50 % of the greatest force\n",
+                     quantity_text(origin + at(straight_from), "m"), quantity_text(origin + at(straight_to), "m"));
 }
 
-std::string toe_of(const RecordFindings& found) {
-  const StraightPart& straight = found.straight.front();
+/// Of a record whose straight part misses the origin; or "".
+std::string toe_of(const StraightPart& straight) {
   const double reach = straight.compliance * straight.greatest_force;
   if (std::abs(straight.origin) < noticeable_origin * reach) return "";
   return fmt::format("toe = [\"{}\", \"{}\"]          # the straight part gives the origin: it was at {}\n",
@@ -151,14 +149,17 @@ struct Measured {
   RecordFindings found{};
 };
 
-Measured measured(const std::vector<MeasuredRecord>& records, const SpecimenRequest& request,
-                  const std::string& reduction) {
-  const std::vector<MeasuredRecord> here = in_place(records, request);
+Measured measured(std::vector<MeasuredRecord> records, const SpecimenRequest& request, const std::string& reduction) {
   std::string keys = "stiffness_between = [\"0 m\", \"1 m\"]\n";
-  RecordFindings found = findings_of(experiment_text(here, keys, reduction), !reduction.empty());
-  const std::string toe = toe_of(found);
-  keys = straight_keys(found, toe);
-  if (!toe.empty()) found = findings_of(experiment_text(here, keys, reduction), !reduction.empty());
+  const auto read = [&] {
+    return findings_of(experiment_text(in_place(records, request), keys, reduction), !reduction.empty());
+  };
+  RecordFindings found = read();
+  std::vector<std::string> toes;
+  for (const StraightPart& straight : found.straight) toes.push_back(toe_of(straight));
+  for (std::size_t i = 0; i < records.size(); ++i) records[i].text += toes[i];
+  keys = straight_keys(found, !toes.front().empty());
+  found = read();
   return {experiment_text(records, keys, reduction), found};
 }
 

@@ -13,6 +13,7 @@ namespace {
 
 constexpr std::string_view two_arms = "double_cantilever_beam end_notched_flexure mixed_mode_bending";
 constexpr std::string_view supported = "end_notched_flexure mixed_mode_bending";
+constexpr std::string_view with_young_modulus = "end_notched_flexure mixed_mode_bending compact_tension";
 constexpr Range poisson{-1.0, 0.5, true, "above -1 and below 0.5"};
 
 Key only_of(Key key, std::string_view specimens) {
@@ -46,19 +47,23 @@ std::vector<Key> dimension_rows() {
       only_of(required(
                   stored<&D::depth>("depth", length, "Width W of a compact specimen, from the load line to its back.")),
               "compact_tension"),
-      stored<&D::young_modulus>("young_modulus", stress, "Young's modulus along the arms, or of an isotropic material.",
-                                "by the initial compliance, if the method can"),
+      only_of(stored<&D::young_modulus>("young_modulus", stress,
+                                        "Young's modulus along the arms, or of an isotropic material.",
+                                        "by the initial compliance, if the method can"),
+              with_young_modulus),
       part(stored<&D::transverse_modulus>("transverse_modulus", stress, "Young's modulus E33 across the arms.",
                                           left_out)),
       part(stored<&D::shear_modulus>("shear_modulus", stress, "Shear modulus G13 of the arms.", left_out)),
       only_of(stored<&D::poisson_ratio>("poisson_ratio", number(poisson), "Poisson's ratio of an isotropic material.",
                                         left_out),
               "compact_tension"),
-      block(stored<&D::block_offset>("block_offset", block_length,
-                                     "Distance t (l1) from the load point to the middle of the arm, for F and N.",
-                                     "0 in F, N = 1")),
-      block(stored<&D::block_length>("block_length", block_length,
-                                     "Distance L' (l2) from the load point to the end of its block, for N.", "N = 1")),
+      block(stored<&D::block_offset>(
+          "block_offset", block_length,
+          "Distance t (l1) from the load point to the middle of the arm, for F and N; with block_length.",
+          "0 in F, N = 1")),
+      block(stored<&D::block_length>(
+          "block_length", block_length,
+          "Distance L' (l2) from the load point to the end of its block, for N; with block_offset.", "N = 1")),
   };
 }
 
@@ -78,11 +83,21 @@ std::vector<double> quantities(const ConfigTable& table, std::string_view key) {
   return values;
 }
 
+void require_both_of_blocks(const ConfigTable& table, const TestDimensions& read) {
+  if (std::isnan(read.block_offset) == std::isnan(read.block_length)) return;
+  const bool has_offset = !std::isnan(read.block_offset);
+  throw table.at(has_offset ? "block_offset" : "block_length")
+      .error(fmt::format("{} is missing: block_offset and block_length go together, as F and N do; both are \"0 mm\" "
+                         "without end blocks",
+                         has_offset ? "block_length" : "block_offset"));
+}
+
 TestDimensions read_dimensions(const ConfigTable& table) {
   for (const Key* key : table.rows())
     if (key->otherwise.empty()) table.at(key->name);  // read_stored() passes over missing ones
   TestDimensions read;
   read_stored(table, read);
+  require_both_of_blocks(table, read);
   if (table.choice("specimen") == "end_notched_flexure") {
     read.calibration_lengths = quantities(table, "calibration_lengths");
     read.calibration_compliances = quantities(table, "calibration_compliances");

@@ -1,0 +1,161 @@
+// Records of testing machines that pfdm init --specimen takes, and what pfdm reduce makes of doubtful input.
+
+#include "tests/cases/bar_fit.h"
+#include "tests/cases/temporary_case.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fmt/format.h>
+
+#include <filesystem>
+
+namespace pfdm::this_file {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+const std::string dcb = "double_cantilever_beam";
+
+/// Rows 0 to 40 of n columns: 1 N and 0.1 mm more in each, after `slack` [mm] at no force.
+std::string straight_rows(const std::string& head, int n, double slack = 0.0) {
+  std::string text = head + "\n";
+  for (int i = 0; i <= 40; ++i) {
+    text += fmt::format("{:.4f};{:.4f}", slack + 0.1 * i, 1.0 * i);
+    for (int k = 2; k < n; ++k) text += fmt::format(";{:.4f}", 50.0 + 0.01 * i);
+    text += "\n";
+  }
+  return text;
+}
+
+struct Made {
+  Outcome outcome;
+  std::string text;  ///< case.toml, if there is one
+};
+
+/// The case of records with these contents.
+Made made(const std::vector<std::string>& records) {
+  const TemporaryCase directory(bar_case());
+  std::vector<std::string> words{"init", (directory.path() / "new").string(), "--specimen", dcb};
+  for (std::size_t i = 0; i < records.size(); ++i) {
+    const std::string name = fmt::format("record{}.csv", i + 1);
+    directory.write(name, records[i]);
+    words.insert(words.end(), {"--data", (directory.path() / name).string()});
+  }
+  const Outcome outcome = run(words);
+  return {outcome, content_of(directory.path() / "new/case.toml")};
+}
+
+void expect_refused(const std::string& head, int n, const std::string& message) {
+  const Made result = made({straight_rows(head, n)});
+  EXPECT_EQ(result.outcome.status, 2) << head;
+  EXPECT_THAT(result.outcome.err, HasSubstr(message));
+  EXPECT_EQ(result.text, "");
+}
+
+/// [mm], [N] of the columns that are taken; "" where none is.
+void expect_columns(const std::string& head, int n, const std::string& displacement, const std::string& force,
+                    const std::string& crack_length) {
+  const Made result = made({straight_rows(head, n)});
+  ASSERT_EQ(result.outcome.status, 0) << head << ": " << result.outcome.err;
+  EXPECT_THAT(result.text, HasSubstr(fmt::format("displacement = {{ column = \"{}\"", displacement))) << head;
+  EXPECT_THAT(result.text, HasSubstr(fmt::format("\nforce = {{ column = \"{}\"", force))) << head;
+  if (crack_length.empty())
+    EXPECT_THAT(result.text, Not(HasSubstr("\ncrack_length = {"))) << head;
+  else
+    EXPECT_THAT(result.text, HasSubstr(fmt::format("\ncrack_length = {{ column = \"{}\"", crack_length))) << head;
+}
+
+TEST(MachineRecords, AreReadByWholeWordsAndUnits) {
+  expect_columns("Crack opening displacement [mm];Load [N]", 2, "Crack opening displacement", "Load", "");
+  expect_columns("COD [mm];Load [N];Crack extension [mm]", 3, "COD", "Load", "");
+  expect_columns("Opening [mm];Load [N];Crack growth rate;Crack length [mm]", 4, "Opening", "Load", "Crack length");
+  expect_columns("Extension;Force;Force rate;Load time;a (mm)", 5, "Extension", "Force", "a");
+  expect_columns("Stroke [mm];Load [N];Load-line displacement [V]", 3, "Stroke", "Load", "");
+  expect_columns("displacement_mm;load_N;crack_length_mm", 3, "displacement_mm", "load_N", "crack_length_mm");
+  expect_columns("Weg [mm];Kraft [N];Schwingweg [s]", 3, "Weg", "Kraft", "");
+  expect_columns("Stroke [mm];Force [lbf]", 2, "Stroke", "Force", "");
+}
+
+TEST(MachineRecords, OfUnknownUnitsAreRefused) {
+  expect_refused("Opening [mm];Load [lbs]", 2, "the unit \"lbs\" of column \"Load [lbs]\" is not known");
+  expect_refused("Opening [mm];Load [lb]", 2, "\"Load [lb]\" is no force");
+  expect_refused("Unloading [mm];Load [N]", 2, "no column of it is known for a displacement");
+}
+
+TEST(MachineRecords, HaveEachItsOwnToe) {
+  const Made result = made({straight_rows("Opening [mm];Load [N]", 2), straight_rows("Opening [mm];Load [N]", 2, 0.5)});
+  ASSERT_EQ(result.outcome.status, 0) << result.outcome.err;
+  const std::string &text = result.text, toe = "toe = [\"4 N\", \"20 N\"]";
+  const std::size_t second = text.find("name = \"record2\"");
+  ASSERT_NE(second, std::string::npos);
+  EXPECT_EQ(text.substr(0, second).find("toe = "), std::string::npos);
+  EXPECT_NE(text.substr(second).find(toe), std::string::npos);
+  const Made turned = made({straight_rows("Opening [mm];Load [N]", 2, 0.5), straight_rows("Opening [mm];Load [N]", 2)});
+  EXPECT_NE(turned.text.find(toe), std::string::npos);
+  EXPECT_EQ(turned.text.substr(turned.text.find("name = \"record2\"")).find("toe = "), std::string::npos);
+}
+
+TEST(MachineRecords, NeedTheNameOfTheSpecimen) {
+  const TemporaryCase directory(bar_case());
+  directory.write("record.csv", straight_rows("Opening [mm];Load [N]", 2));
+  const std::string place = (directory.path() / "new").string(), file = (directory.path() / "record.csv").string();
+  for (const std::vector<std::string>& words : {std::vector<std::string>{"init", place, "--data", file, "--specimen"},
+                                                {"init", place, "--specimen", "--data", file},
+                                                {"init", "--specimen", "--set", "width=20 mm"},
+                                                {"init", "--specimen", dcb, "--data", file}}) {
+    const Outcome outcome = run(words);
+    EXPECT_EQ(outcome.status, 2) << words.back();
+    EXPECT_THAT(outcome.err, HasSubstr("--specimen"));
+  }
+}
+
+/// A case whose record has its dimensions in `table`.
+std::string with_reduction(const std::string& table) {
+  return bar_case() + measured_specimen() + "\n[experiment.reduction]\n" + table;
+}
+
+const std::string beam =
+    "specimen = \"double_cantilever_beam\"\nwidth = \"25 mm\"\nthickness = \"3 mm\"\ncrack_length = \"50 mm\"\n";
+
+TEST(ReducedCases, NeedAllKeysThatAreMeantTogether) {
+  for (const auto& [key, message] : {std::pair("block_offset = \"5 mm\"", "block_offset and block_length"),
+                                     {"block_length = \"10 mm\"", "block_offset and block_length"},
+                                     {"young_modulus = \"130 GPa\"", "young_modulus"}}) {
+    const TemporaryCase directory(with_reduction(beam + key + "\n"));
+    fs::create_directories(directory.path() / "data");
+    directory.write("data/one.csv", straight_rows("u;f", 2));
+    const Outcome outcome = run({"reduce", directory.path().string()});
+    EXPECT_EQ(outcome.status, 2) << key;
+    EXPECT_THAT(outcome.err, HasSubstr(message));
+  }
+  const TemporaryCase directory(with_reduction(beam + "block_offset = \"5 mm\"\nblock_length = \"10 mm\"\n"));
+  fs::create_directories(directory.path() / "data");
+  directory.write("data/one.csv", straight_rows("u;f", 2));
+  EXPECT_EQ(run({"reduce", directory.path().string()}).status, 0);
+}
+
+// No row lies below half of the greatest force: enough for a fit of the modulus.
+TEST(ReducedCases, NeedNoReductionForAFit) {
+  const std::string start = bar_fit.substr(0, bar_fit.find("[fit]"));
+  const TemporaryCase directory(BarFit::marked_bar() + start + "[experiment.reduction]\n" + beam +
+                                "[fit]\n[[fit.parameters]]\nkey = \"materials.concrete.young_modulus\"\n"
+                                "bounds = [\"10 GPa\", \"90 GPa\"]\n"
+                                "[[fit.stages]]\nname = \"elastic\"\nbetween = [\"0 um\", \"6 um\"]\n");
+  std::string rows = "displacement_m,force_N\n";
+  for (int i = 8; i <= 12; ++i) rows += fmt::format("{},{}\n", 0.5e-6 * i, 33e9 / 0.9 * 1e-6 / 20e-3 * 0.5e-6 * i);
+  directory.write("data.csv", rows);
+  const Outcome checked = run({"check", directory.path().string()});
+  EXPECT_EQ(checked.status, 0) << checked.err;
+  EXPECT_THAT(checked.out, HasSubstr("initial compliance needs three"));
+  const Outcome fitted = run({"fit", directory.path().string()});
+  EXPECT_EQ(fitted.status, 0) << fitted.err;
+  EXPECT_THAT(fitted.out, HasSubstr("initial compliance needs three"));
+  EXPECT_TRUE(fs::exists(directory.results() / "fit.json"));
+  EXPECT_EQ(run({"reduce", directory.path().string()}).status, 2);
+}
+
+}  // namespace
+}  // namespace pfdm::this_file
