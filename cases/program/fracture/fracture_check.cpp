@@ -108,6 +108,10 @@ Mesh made_mesh(const FractureProgram& program, Log& log) {
   return mesh;
 }
 
+const Mesh& find_mesh(const FractureProgram& program, MeshStore& meshes, Log& log) {
+  return meshes.get(program.mesh_hash, [&] { return made_mesh(program, log); });
+}
+
 FractureRun made_run(const FractureProgram& program, const Mesh& mesh, Log& log) {
   const FractureCase& fracture = program.fracture;
   FractureModel model = model_on(fracture, mesh);

@@ -7,6 +7,8 @@ namespace pfdm {
 
 /// Makes the mesh and says how large it is and what is wrong with its cells.
 Mesh made_mesh(const FractureProgram& program, Log& log);
+/// Made, or found where several runs share it.
+const Mesh& find_mesh(const FractureProgram& program, MeshStore& meshes, Log& log);
 
 /// Puts the model on the mesh and says whether that resolves what is asked of it. Keeps a reference to the mesh.
 FractureRun made_run(const FractureProgram& program, const Mesh& mesh, Log& log);

@@ -6,16 +6,14 @@
 #include "cases/program/fracture/fracture_check.h"
 #include "cases/program/fracture/fracture_laws.h"
 #include "cases/program/fracture/fracture_reduction.h"
-#include "cases/program/fracture/other_laws.h"
+#include "cases/program/fracture/fracture_studies.h"
 #include "cases/program/fracture/outcome/fracture_cohesive.h"
 #include "cases/program/fracture/outcome/fracture_comparison.h"
 #include "cases/program/fracture/outcome/fracture_files.h"
 #include "cases/program/fracture/outcome/fracture_results.h"
-#include "cases/program/fracture/outcome/opening_law.h"
 #include "cases/program/fracture/outcome/recorded_steps.h"
 #include "cases/program/fracture/page/fracture_browser.h"
 #include "cases/program/fracture/page/fracture_report.h"
-#include "cases/program/fracture/run/differentiated_run.h"
 #include "cases/program/fracture/run/running_case.h"
 #include "cases/program/input/case_files/kept_case.h"
 #include "cases/program/input/fields/field_reader.h"
@@ -24,8 +22,6 @@
 #include "cases/program/session/report_parts.h"
 #include "cases/program/session/terminal/stopwatch.h"
 #include "cases/program/studies/fit/curve_fit.h"
-#include "cases/program/studies/sensitivity/sensitivity.h"
-#include "postproc/displacements/place_record.h"
 #include "postproc/files/folder_lock.h"
 #include "postproc/files/other_case.h"
 #include "solver/fracture/bending_words.h"
@@ -74,11 +70,6 @@ std::optional<FractureState> state_to_go_on_from(const FractureProgram& program,
 
 void cohesive(const FractureProgram& program, Session& session) {
   write_cohesive_laws(program.fracture, program.file, program.name, program.hash, session, false);
-}
-
-/// Made, or found where several runs share it.
-const Mesh& find_mesh(const FractureProgram& program, MeshStore& meshes, Log& log) {
-  return meshes.get(program.mesh_hash, [&] { return made_mesh(program, log); });
 }
 
 void prepare(const FractureProgram& program, Session& session) {
@@ -148,110 +139,6 @@ void compare(const FractureProgram& program, Session& session) {
   compare_with_experiment(program.fracture, *program.experiment, program.name, program.hash, session);
 }
 
-/// How the curve is read from the results of a run.
-CurveModel::ReadCurve curve_reader(const FractureProgram& program) {
-  return [component = program.fracture.output.curve.component](const std::filesystem::path& results) {
-    const std::vector<CurveRow> rows = read_curve(results / curve_file);
-    return computed_curve(rows, component, first_debonding_in(results, rows, component));
-  };
-}
-
-/// What a fit of fields reads of a run.
-CurveModel::ReadHistory history_reader(const FractureProgram& program) {
-  return [component = program.fracture.output.curve.component](const std::filesystem::path& results) {
-    FieldHistory history{.followed = {.name = "computed", .x = {}, .y = {}}, .rows = read_place_record(results)};
-    for (const CurveRow& row : read_curve(results / curve_file)) {
-      history.followed.x.push_back(row.displacement);
-      history.followed.y.push_back(row.force[component]);
-    }
-    const std::size_t n = std::min(history.rows.size(), history.followed.x.size());
-    history.rows.resize(n);
-    history.followed.x.resize(n);
-    history.followed.y.resize(n);
-    return history;
-  };
-}
-
-/// The same along the way that it moves first; what falls back behind the largest displacement is left out.
-SensitivityJob::ReadForward forward_reader(const FractureProgram& program) {
-  return [component = program.fracture.output.curve.component](const std::filesystem::path& results) {
-    std::vector<CurveRow> rows = read_curve(results / curve_file);
-    const auto first = first_debonding_in(results, rows, component);
-    const auto moved = std::ranges::find_if(rows, [](const CurveRow& row) { return row.displacement != 0.0; });
-    ForwardCurve found{.is_turned = moved != rows.end() && moved->displacement < 0.0};
-    double reached = 0.0;
-    for (CurveRow& row : rows) {
-      if (found.is_turned) row.displacement = -row.displacement, row.force = -row.force;
-      found.n_behind += row.displacement < reached ? 1 : 0;
-      reached = std::max(reached, row.displacement);
-    }
-    found.curve = computed_curve(rows, component, first);
-    return found;
-  };
-}
-
-DirectSensitivity direct_sensitivity(const FractureProgram& program, std::span<const CaseParameter> parameters,
-                                     Session& session) {
-  MeshStore own;
-  const Mesh& mesh = find_mesh(program, own, session.log);
-  if (const std::string why = refusal_of_derivatives(program, mesh); !why.empty())
-    throw InputError(fmt::format("--method direct: there are no direct derivatives of runs with {}", why));
-  FractureRun run = made_run(program, mesh, session.log);
-  return differentiated_run(program, parameters, run, mesh, session);
-}
-
-void sensitivity(const FractureProgram& program, Session& session) {
-  std::vector<CaseParameter> fitted;
-  std::vector<std::string> left_out;
-  if (program.fit)
-    for (const CurveFitParameter& p : program.fit->parameters) {
-      if (!p.in_case.name.starts_with("experiment") && p.in_case.value > 0.0)
-        fitted.push_back(p.in_case);
-      else
-        left_out.push_back(p.in_case.name);
-    }
-  run_sensitivity({.file = program.file,
-                   .fitted = std::move(fitted),
-                   .left_out = std::move(left_out),
-                   .read_curve = forward_reader(program),
-                   .direct = [&program](std::span<const CaseParameter> parameters,
-                                        Session& s) { return direct_sensitivity(program, parameters, s); },
-                   .name = program.name,
-                   .title = program.fracture.title,
-                   .hash = program.hash},
-                  session);
-}
-
-void fit(const FractureProgram& program, Session& session) {
-  if (!program.experiment)
-    throw InputError(fmt::format("{}: it names no [experiment] that the curve could be fitted to", program.name));
-  const ExperimentSettings& experiment = *program.experiment;
-  const std::vector<MeasuredEvent> events = events_of_fit(program);
-  MeasuredFields fields;
-  if (!experiment.fields.empty()) {
-    MeshStore own;
-    fields = fields_of_fit(program, find_mesh(program, own, session.log), session.log);
-  }
-  const bool is_reduced = can_be_reduced(program, session.log);
-  fit_curve({.file = program.file,
-             .settings = *program.fit,
-             .specimens = experiment.specimens,
-             .events = events,
-             .fields = fields,
-             .straight_from = experiment.stiffness_from,
-             .straight_to = experiment.stiffness_to,
-             .set_ups = [](const CaseFile& file) { return read_set_ups(file.config.root()); },
-             .read_curve = curve_reader(program),
-             .read_history = history_reader(program),
-             .laws = opening_laws,
-             .other_laws = with_other_laws(program.file),
-             .name = program.name,
-             .hash = program.hash,
-             .title = program.fracture.title},
-            session);
-  if (is_reduced) reduce_tests(program, session);
-}
-
 CasePage page_of(const FractureProgram& program, const Session& session) {
   return {.report = fracture_page(program.fracture, program.experiment, program.name, program.hash, session.results),
           .extras = fracture_extras(program.fracture, program.file, program.hash, session.results)};
@@ -292,8 +179,8 @@ RunnableCase read_program(const CaseFile& file) {
   if (!program->reduction)
     found.reduce = job_without_table(file, "experiment.reduction",
                                      "the specimen and its dimensions; its records stand in [experiment]", "dcb_fit");
-  found.fit = [program](Session& session) { fit(*program, session); };
-  found.sensitivity = [program](Session& session) { sensitivity(*program, session); };
+  found.fit = [program](Session& session) { fit_fracture(*program, session); };
+  found.sensitivity = [program](Session& session) { find_sensitivity(*program, session); };
   if (!program->fit)
     found.fit = job_without_table(file, "fit",
                                   "[[fit.parameters]] that name the values to be estimated with their bounds, and "

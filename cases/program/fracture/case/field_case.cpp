@@ -122,7 +122,7 @@ std::vector<Key> datum_rows() {
                                  "Whether outliers from the points around them are left out.")};
 }
 
-FieldPlane read_plane(const ConfigTable& table) {
+FieldPlane read_field_plane(const ConfigTable& table) {
   FieldPlane plane;
   if (!table.has("plane")) return plane;
   const ConfigTable keys = table.table("plane");
@@ -154,7 +154,7 @@ FieldSettings read_field(const ConfigTable& table, const ConfigTable& experiment
                          const std::vector<MeasuredCurve>& specimens) {
   const std::size_t specimen = read_specimen_of(table, specimens, "on which it was measured");
   FieldSettings settings{
-      .field = {.name = table.line("name"), .specimen = specimen, .plane = read_plane(table), .frames = {}},
+      .field = {.name = table.line("name"), .specimen = specimen, .plane = read_field_plane(table), .frames = {}},
       .selection = {},
       .where = table,
       .of_specimen = experiment.tables("specimens")[specimen]};
