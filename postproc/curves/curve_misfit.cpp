@@ -193,7 +193,7 @@ double relative_misfit(const std::vector<double>& residuals, const MeasuredPoint
 std::vector<double> weights_by_scatter(const std::vector<double>& residuals, const MeasuredPoints& measured) {
   constexpr double alike = 1.2, most = 10.0;
   std::vector<double> scatter, n;
-  for (std::size_t i = 0; i < residuals.size(); ++i) {
+  for (std::size_t i = 0; i < measured.points.size(); ++i) {  // others may come behind
     const auto& point = measured.points[i];
     scatter.resize(std::max(scatter.size(), point.specimen + 1), 0.0);
     n.resize(scatter.size(), 0.0);
@@ -212,7 +212,7 @@ std::vector<double> weights_by_scatter(const std::vector<double>& residuals, con
     squares += n[s] * weights[s] * weights[s];
   }
   if (scatter.size() < 2 || !(largest > 0.0) || !(largest > alike * std::ranges::min(scatter))) return {};
-  for (double& weight : weights) weight /= std::sqrt(squares / static_cast<double>(residuals.size()));
+  for (double& weight : weights) weight /= std::sqrt(squares / static_cast<double>(measured.points.size()));
   return weights;
 }
 

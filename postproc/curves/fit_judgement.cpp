@@ -40,6 +40,7 @@ FitEvidence evidence_of(const FitFindings& found, const JudgedData& data) {
                        .message = found.message,
                        .misfit = data.misfit,
                        .series = data.series,
+                       .n_elsewhere = data.n_elsewhere,
                        .noise_is_known = found.noise_is_known,
                        .negligible = data.negligible,
                        .correlated = errors_if_correlated(data),

@@ -18,6 +18,7 @@ struct FinerModel {
 /// What findings do not hold of what a verdict needs.
 struct JudgedData {
   std::vector<ResidualSeries> series{};
+  std::size_t n_elsewhere = 0;  ///< FitEvidence::n_elsewhere
   /// The fit, where correlated residuals may be noise: of a sound one they widen the intervals. Null: they leave none.
   const FitResult* result = nullptr;
   bool correlated_is_noise = true;  ///< false: correlated residuals are an error of the model, and leave no intervals

@@ -36,6 +36,7 @@ struct RecordedField {
   double subset = 0.0;     ///< side of the squares that were correlated [m]; 0: not known
   bool removes_rigid_motion = true;
   std::vector<RecordedFrame> frames;  ///< in the order of their displacements
+  std::vector<std::string> told{};    ///< what was left out in reading, a sentence each
 };
 
 /// Points whose mean displacement is one datum.

@@ -1,5 +1,7 @@
 #include "postproc/displacements/field_residuals.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -41,6 +43,11 @@ MatrixXd motions(const MeasuredField& field, const FieldFrame& frame, const Vect
   return modes;
 }
 
+/// Side of the subsets over spacing of the points; at least 1.
+double overlap_of(const MeasuredField& field) {
+  return field.spacing > 0.0 ? std::max(1.0, field.subset / field.spacing) : 1.0;
+}
+
 }  // namespace
 
 MatrixXd frame_difference(const MeasuredField& field, const FieldFrame& frame, const std::vector<double>& computed) {
@@ -51,6 +58,10 @@ MatrixXd frame_difference(const MeasuredField& field, const FieldFrame& frame, c
       difference(static_cast<Eigen::Index>(i), k) = field.plane.axis(k).dot(u) - frame.u[i][k];
   }
   return difference;
+}
+
+MatrixXd measured_of(const MeasuredField& field, const FieldFrame& frame) {
+  return frame_difference(field, frame, std::vector<double>(3 * (1 + std::ranges::max(frame.places)), 0.0)) * -1.0;
 }
 
 RigidMotion::RigidMotion(const MeasuredField& field, const FieldFrame& frame)
@@ -154,8 +165,8 @@ std::vector<double> sides_of(const MeasuredField& field, const std::vector<std::
 }  // namespace
 
 FieldScatter scatter_of(const MeasuredField& field, const std::vector<std::size_t>& frames,
-                        const std::vector<MatrixXd>& left) {
-  FieldScatter scatter;
+                        const std::vector<MatrixXd>& left, double taken) {
+  FieldScatter scatter{.freedom = -taken};
   FrameResiduals residuals{field, frames, {}, {}};
   double squares = 0.0;
   for (std::size_t f = 0; f < frames.size(); ++f) {
@@ -186,12 +197,20 @@ FieldScatter scatter_of(const MeasuredField& field, const std::vector<std::size_
       scatter.is_long_ranged = side > 0.5 * sides.back() && ratio > long_range * sums.limit() * std::max(smaller, 1.0);
     }
   }
+  if (const double overlap = overlap_of(field); !(field.deviation > 0.0) && overlap > scatter.inflation) {
+    scatter.inflation = overlap;
+    scatter.over = field.subset;
+    scatter.over_frames = scatter.is_long_ranged = false;
+  }
   return scatter;
 }
 
-double stated_deviation(const MeasuredField& field) {
-  const double overlap = field.spacing > 0.0 ? field.subset / field.spacing : 0.0;
-  return field.deviation * std::max(1.0, overlap);
+std::string too_few_for_noise(const std::string& field, std::size_t n_data) {
+  return fmt::format(
+      "field \"{}\" has {} data, and fewer than {} do not tell their noise: state it by \"deviation\" of the field",
+      field, n_data, fewest_for_noise);
 }
+
+double stated_deviation(const MeasuredField& field) { return field.deviation * overlap_of(field); }
 
 }  // namespace pfdm

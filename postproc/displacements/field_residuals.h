@@ -7,6 +7,7 @@
 #include <Eigen/QR>
 
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace pfdm {
@@ -15,6 +16,9 @@ namespace pfdm {
 /// three numbers each, in the body.
 Eigen::MatrixXd frame_difference(const MeasuredField& field, const FieldFrame& frame,
                                  const std::vector<double>& computed);
+
+/// What was measured, likewise [m].
+Eigen::MatrixXd measured_of(const MeasuredField& field, const FieldFrame& frame);
 
 /// The rigid motion of a frame: what it does to the places, with the square roots of their numbers of points as
 /// weights.
@@ -42,14 +46,19 @@ struct FieldScatter {
   double over = 0.0;         ///< side of the parts that show it [m]
   bool over_frames = false;  ///< and of sums over all frames
   bool is_long_ranged = false;  ///< grows up to the largest parts there are: hardly noise
-  double freedom = 0.0;         ///< data
+  double freedom = 0.0;         ///< data, less what parameters take
 };
 
 /// Of sums over squares of growing size, alone and over all frames, the largest ratio of their variance to that of
 /// independent data, where independent data exceed it once in 5,000 at most. `left`: RigidMotion::projected() of
-/// these frames.
+/// these frames. `taken`: of their data, by the parameters of a fit. Where no noise is stated the inflation is that of
+/// overlapping subsets at least.
 FieldScatter scatter_of(const MeasuredField& field, const std::vector<std::size_t>& frames,
-                        const std::vector<Eigen::MatrixXd>& left);
+                        const std::vector<Eigen::MatrixXd>& left, double taken = 0.0);
+
+/// Fewer data do not tell their noise.
+constexpr std::size_t fewest_for_noise = 20;
+std::string too_few_for_noise(const std::string& field, std::size_t n_data);
 
 /// The standard deviation that a component of one point stands for in sums over the face where subsets overlap: the
 /// stated one times side of the subset over spacing of the points, where that is larger [m].

@@ -193,6 +193,7 @@ MeasuredField selected_field(const RecordedField& recorded, const FieldSelection
   if (field.frames.empty())
     throw InputError(fmt::format("no frame of \"{}\" has {} points or more that count: {}", recorded.name, fewest,
                                  field.told.front()));
+  field.told.insert(field.told.begin(), recorded.told.begin(), recorded.told.end());
   return field;
 }
 

@@ -82,10 +82,16 @@ std::string widening_text(const FitEvidence& evidence) {
   return fmt::format("standard errors are widened for the correlation, by up to {:.1f} times", most);
 }
 
+/// Of the whole fit.
+std::size_t n_data_of(const FitEvidence& evidence) {
+  std::size_t n = evidence.n_elsewhere;
+  for (const ResidualSeries& series : evidence.series) n += series.values.size();
+  return n;
+}
+
 /// Too few data to show whether the model is right.
 void judge_number(const FitEvidence& evidence, std::vector<std::string>& reasons) {
-  std::size_t n = 0;
-  for (const ResidualSeries& series : evidence.series) n += series.values.size();
+  const std::size_t n = n_data_of(evidence);
   const std::size_t k = evidence.estimates.size();
   if (n > 0 && static_cast<double>(n) < static_cast<double>(k) + least_freedom)
     reasons.push_back(
@@ -108,8 +114,7 @@ void judge_estimates(const std::vector<JudgedEstimate>& estimates, std::vector<s
 /// explain.
 void judge_starts(const FitEvidence& evidence, std::vector<std::string>& reasons) {
   if (evidence.starts.size() < 2) return;
-  double n = 0.0;
-  for (const ResidualSeries& series : evidence.series) n += static_cast<double>(series.values.size());
+  const auto n = static_cast<double>(n_data_of(evidence));
   const double least = std::ranges::min(evidence.starts, {}, &FitIteration::rms).rms;
   const double freedom = n - static_cast<double>(evidence.estimates.size());
   const double variance = evidence.noise_is_known ? 1.0 : n * least * least / std::max(freedom, 1.0);

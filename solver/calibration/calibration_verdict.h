@@ -56,6 +56,7 @@ struct FitEvidence {
   std::string message{};  ///< what ended the fit
   double misfit = 0.0;    ///< largest of the data fitted, rms over measured rms: with 0.9 or more there is no fit
   std::vector<ResidualSeries> series{};  ///< empty: residuals of this kind of fit are judged elsewhere
+  std::size_t n_elsewhere = 0;           ///< data of the fit whose residuals are judged elsewhere, as those of fields
   bool noise_is_known = false;           ///< and the residuals are divided by its standard deviation
   /// Residuals below are errors of the computation, without noise to hide them.
   double negligible = 0.0;

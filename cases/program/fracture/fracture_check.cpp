@@ -8,6 +8,7 @@
 #include "mesh/quality.h"
 #include "physics/quantity_text.h"
 #include "postproc/curves/event_rows.h"
+#include "postproc/displacements/field_residuals.h"
 #include "postproc/files/folder_lock.h"
 #include "solver/fracture/bending_words.h"
 #include "solver/fracture/fracture_run.h"
@@ -50,6 +51,20 @@ void check_fit(const FractureProgram& program, Log& log) {
   log.say(fit_words(*program.fit));
 }
 
+/// Of all specimens: residuals of fields stand beside those of all rows.
+void require_known_noise(const FieldSettings& settings, const std::vector<MeasuredCurve>& specimens) {
+  for (const MeasuredCurve& specimen : specimens)
+    if (specimen.curve.deviation.empty())
+      throw settings.where.error(
+          fmt::format("with what weight the field counts beside the rows of \"{}\" is not known; give "
+                      "[[experiment.specimens]] deviation",
+                      specimen.curve.name));
+  settings.where.in_context([&] {
+    require_deviations(specimens);
+    return true;
+  });
+}
+
 }  // namespace
 
 std::vector<MeasuredEvent> events_of_fit(const FractureProgram& program) {
@@ -73,18 +88,20 @@ std::vector<MeasuredEvent> events_of_fit(const FractureProgram& program) {
 MeasuredFields fields_of_fit(const FractureProgram& program, const Mesh& mesh, Log& log) {
   const ExperimentSettings& experiment = *program.experiment;
   MeasuredFields found;
+  if (program.fit && !experiment.fields.empty() && program.fit->solver.differences == Differences::shared)
+    log.warn(
+        "[fit] differences = \"shared\": with displacement fields intervals may be too narrow; take \"central\" and a "
+        "small step");
   for (const FieldSettings& settings : experiment.fields) {
-    if (experiment.specimens[settings.field.specimen].curve.deviation.empty())
-      throw settings.where.error(
-          fmt::format("with what weight the field counts beside the rows of \"{}\" is not known; give "
-                      "[[experiment.specimens]] deviation",
-                      experiment.specimens[settings.field.specimen].curve.name));
+    require_known_noise(settings, experiment.specimens);
     const RecordedField recorded = read_recorded_field(settings, experiment.specimens, program.file.directory);
     found.fields.push_back(
         settings.where.in_context([&] { return selected_field(recorded, settings.selection, mesh, found.places); }));
     const MeasuredField& field = found.fields.back();
-    std::size_t n = 0;
-    for (const FieldFrame& frame : field.frames) n += frame.places.size();
+    std::size_t n = 0, n_data = 0;
+    for (const FieldFrame& frame : field.frames) n += frame.places.size(), n_data += field.n_data(frame);
+    if (!(field.deviation > 0.0) && n_data < fewest_for_noise)
+      throw settings.where.error(too_few_for_noise(field.name, n_data));
     log.say(fmt::format(
         "field \"{}\": {} frames from {}, {} places of {} or {} points, {} components", field.name, field.frames.size(),
         quantities_text({field.frames.front().displacement, field.frames.back().displacement}, "m", " to "), n,

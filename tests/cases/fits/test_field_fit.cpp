@@ -1,14 +1,11 @@
 // Fits of displacements measured on a face, against closed forms.
 
-#include "postproc/files/text_file.h"
-#include "tests/cases/temporary_case.h"
+#include "tests/cases/field_plate.h"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
-#include <nlohmann/json.hpp>
 
 #include <cmath>
-#include <random>
 #include <string>
 #include <vector>
 
@@ -16,97 +13,9 @@ namespace pfdm::this_file {
 namespace {
 
 using ::testing::HasSubstr;
+using namespace field_plate;
 
-constexpr double length = 20.0, height = 10.0;                          // of a plate 1 mm thick [mm]
-constexpr double true_modulus = 70e9, true_ratio = 0.33, noise = 1e-4;  // of displacements [mm]
-
-const std::string plate = R"(
-kind = "fracture"
-title = "Plate in plane stress"
-mesh.generator = "box_hexes"
-mesh.x = [{ length = "20 mm", cells = 8 }]
-mesh.y = [{ length = "10 mm", cells = 4 }]
-mesh.z = [{ length = "1 mm", cells = 1 }]
-mesh.region = "plate"
-boundary = [
-  { patch = "xmin", displacement = ["0 mm", "free", "free"] },
-  { patch = "xmax", displacement = ["20 um", "free", "free"] },
-  { patch = "ymin", type = "symmetry" },
-  { patches = ["zmin", "zmax"], type = "plane_stress" },
-]
-fracture.split = "none"
-loading.initial_increment = 0.25
-loading.maximum_increment = 0.25
-output.curve = { patch = "xmax", component = "x" }
-[materials.alu]
-regions = ["plate"]
-young_modulus = "60 GPa"
-poisson_ratio = 0.25
-damageable = false
-[experiment]
-stiffness_between = ["2 um", "15 um"]
-[[experiment.specimens]]
-name = "one"
-csv = "curve.csv"
-displacement = { column = "u", unit = "um" }
-force = { column = "f", unit = "N" }
-deviation = { column = "deviation", unit = "N" }
-[[experiment.fields]]
-name = "front"
-files = ["frame_0.csv", "frame_1.csv"]
-at = ["12 um", "20 um"]
-[[fit.parameters]]
-key = "materials.alu.young_modulus"
-bounds = ["10 GPa", "200 GPa"]
-[[fit.parameters]]
-key = "materials.alu.poisson_ratio"
-bounds = [0.05, 0.45]
-)";
-
-struct Point {
-  double x, y, u, v;  // [mm]
-};
-
-/// Uniaxial tension with noise, moved as a rigid body: u = e x, v = -nu e y.
-std::vector<std::vector<Point>> measured(unsigned seed, double scale = 1.0) {
-  std::mt19937 engine(seed);
-  std::normal_distribution<double> normal;
-  std::vector<std::vector<Point>> frames;
-  for (const double displacement : {0.012, 0.020}) {
-    const double e = displacement / length, a = 0.05 * normal(engine), b = 0.05 * normal(engine),
-                 turn = 1e-3 * normal(engine);
-    auto& frame = frames.emplace_back();
-    for (int i = 0; i < 21; ++i)
-      for (int j = 0; j < 11; ++j) {
-        const double x = i, y = j;
-        frame.push_back({x, y, scale * e * x + a - turn * y + noise * normal(engine),
-                         -scale * true_ratio * e * y + b + turn * x + noise * normal(engine)});
-      }
-  }
-  return frames;
-}
-
-void write(const TemporaryCase& directory, const std::vector<std::vector<Point>>& frames,
-           const std::string& names = "X [mm],Y [mm],U [mm],V [mm]") {
-  std::string curve = "u,f,deviation\n";
-  std::mt19937 engine(5);
-  std::normal_distribution<double> normal(0.0, 7.0);
-  for (int i = 1; i <= 20; ++i)
-    curve += fmt::format("{},{},7\n", i, 1e-6 * true_modulus * 1e-3 * i / length * height + normal(engine));
-  directory.write("curve.csv", "# SYNTHETIC, made by the test\n" + curve);
-  for (std::size_t k = 0; k < frames.size(); ++k) {
-    std::string text = "# SYNTHETIC, made by the test\n" + names + "\n";
-    for (const Point& p : frames[k]) text += fmt::format("{},{},{},{}\n", p.x, p.y, p.u, p.v);
-    text += "3.5,4.5,,\n4.5,4.5,NaN,NaN\n";  // not correlated
-    directory.write(fmt::format("frame_{}.csv", k), text);
-  }
-}
-
-nlohmann::json fitted(const TemporaryCase& directory) {
-  const Outcome outcome = run({"fit", directory.path().string()});
-  EXPECT_EQ(outcome.status, 0) << outcome.err << outcome.out;
-  return nlohmann::json::parse(read_file(directory.results() / "fit.json"));
-}
+const char* const files = "files = [\"frame_0.csv\", \"frame_1.csv\"]\nat = [\"12 um\", \"20 um\"]\n";
 
 struct Estimate {
   double value = 0.0, error = 0.0;
@@ -203,6 +112,67 @@ TEST(FieldFit, ReadsPixelsAndFramesOfOneFile) {
   EXPECT_NEAR(fit["fields"][0]["frames"][0]["displacement_m"].get<double>(), 12e-6, 1e-12);
 }
 
+// A frame without noise in it, and one taken before the run begins, which the model has no displacements for.
+TEST(FieldFit, LeavesOutTheReferenceAndWhatIsBeforeTheRun) {
+  const TemporaryCase directory(
+      replaced(plate, files,
+               "files = [\"reference.csv\", \"frame_0.csv\", \"frame_0.csv\", \"frame_1.csv\"]\n"
+               "at = [\"0 um\", \"-12 um\", \"12 um\", \"20 um\"]\n"));
+  write(directory, measured(21));
+  directory.write("reference.csv", "X [mm],Y [mm],U [mm],V [mm]\n1,2,0,0\n2,2,0,0\n2,3,0,0\n5,6,0,0\n");
+  const Outcome outcome = run({"fit", directory.path().string()});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_THAT(outcome.err + outcome.out, HasSubstr("1 frames left out: all their displacements are equal"));
+  EXPECT_THAT(outcome.err + outcome.out, HasSubstr("1 frames left out: they were taken before the run begins"));
+  const auto fit = nlohmann::json::parse(read_file(directory.results() / "fit.json"));
+  EXPECT_EQ(fit["fields"][0]["frames"].size(), 2u);
+  EXPECT_EQ(fit["verdict"], "sound") << fit["reasons"];
+}
+
+// The factor of a column turns what the file has, before the origin of the curve (toe) is taken off.
+TEST(FieldFit, TakesTheFactorOfAColumnBeforeTheOrigin) {
+  const std::string with_toe = replaced(plate, "name = \"one\"\n", "name = \"one\"\ntoe = [\"2 um\", \"15 um\"]\n");
+  const auto frames = measured(22);
+  const TemporaryCase stated(with_toe);
+  write(stated, frames);
+  std::string text = "frame,image,X,Y,U,V\n";
+  for (std::size_t k = 0; k < 2; ++k)
+    for (const Point& p : frames[k])
+      text += fmt::format("{},{},{},{},{},{}\n", k + 1, k == 0 ? -12 : -20, p.x, p.y, p.u, p.v);
+  const TemporaryCase by_column(replaced(with_toe, files,
+                                         "files = [\"all.csv\"]\nframe = \"frame\"\nunit = \"mm\"\n"
+                                         "displacement = { column = \"image\", unit = \"um\", factor = -1 }\n"));
+  write(by_column, frames);
+  by_column.write("all.csv", text);
+  const auto due = fitted(stated)["fields"][0]["frames"], found = fitted(by_column)["fields"][0]["frames"];
+  ASSERT_EQ(found.size(), due.size());
+  for (std::size_t k = 0; k < due.size(); ++k)
+    EXPECT_NEAR(found[k]["displacement_m"].get<double>(), due[k]["displacement_m"].get<double>(), 1e-12);
+}
+
+// Of a body a fiftieth as far drawn the stages end within a micrometre of each other: each has its own part of a run.
+TEST(FieldFit, HasThePartOfTheRunOfEachStage) {
+  std::string small = replaced(plate, "\"20 um\", \"free\"", "\"0.4 um\", \"free\"");
+  small = replaced(small, "[\"2 um\", \"15 um\"]", "[\"0.04 um\", \"0.3 um\"]");
+  small = replaced(small, "at = [\"12 um\", \"20 um\"]", "at = [\"0.24 um\", \"0.4 um\"]\ndeviation = \"0.002 um\"");
+  small +=
+      "[[fit.stages]]\nname = \"a\"\nbetween = [\"0 um\", \"0.27 um\"]\n"
+      "parameters = [\"materials.alu.young_modulus\"]\n"
+      "[[fit.stages]]\nname = \"b\"\nbetween = [\"0 um\", \"0.4 um\"]\n"
+      "parameters = [\"materials.alu.young_modulus\", \"materials.alu.poisson_ratio\"]\n";
+  const TemporaryCase directory(small);
+  auto frames = measured(23);
+  for (auto& frame : frames)
+    for (Point& p : frame) p.u *= 0.02, p.v *= 0.02;
+  write(directory, frames);
+  std::string curve = "u,f,deviation\n";
+  for (int i = 1; i <= 20; ++i)
+    curve += fmt::format("{},{},0.14\n", 0.02 * i, 1e-6 * true_modulus * 2e-5 * i / length * height);
+  directory.write("curve.csv", curve);
+  const auto fit = fitted(directory);
+  EXPECT_NEAR(fit["parameters"][1]["estimate"].get<double>(), true_ratio, 0.01);
+}
+
 struct BadField {
   const char* name;
   const char *good, *bad;
@@ -218,6 +188,9 @@ TEST_P(BadDisplacementFields, AreRefusedWithOneMessage) {
   directory.write("bare.csv", "x,y,u,v\n1,2,0.1,0.1\n2,2,0.1,0.1\n2,3,0.1,0.1\n");
   directory.write("few.csv", "x_mm,y_mm,u_mm,v_mm\n1,2,0.1,0.1\n2,2,0.1,0.1\n2,3,,\n");
   directory.write("other.csv", "x_mm,y_mm,ex,ey\n1,2,0.1,0.1\n2,2,0.1,0.1\n2,3,1,1\n");
+  directory.write("deep.csv", "x_mm,y_mm,u_mm,v_mm,w_mm\n1,2,0.1,0.1,0\n2,2,0.1,0.2,0\n2,3,1,1,0\n");
+  directory.write("flat.csv", "x_mm,y_mm,u_mm,v_mm\n1,2,0.1,0.1\n2,2,0.1,0.2\n2,3,1,1\n4,5,1,1\n");
+  directory.write("bare_curve.csv", "u,f\n1,35\n2,70\n20,700\n");
   directory.write("pixels.csv", "x [px],y [px],u [px],v [px]\n1,2,0.1,0.1\n2,2,0.1,0.1\n2,3,1,1\n");
   for (const char* command : {"check", "fit"}) {
     const Outcome outcome = run({command, directory.path().string()});
@@ -225,8 +198,6 @@ TEST_P(BadDisplacementFields, AreRefusedWithOneMessage) {
     EXPECT_THAT(outcome.err, HasSubstr(GetParam().message));
   }
 }
-
-const char* const files = "files = [\"frame_0.csv\", \"frame_1.csv\"]\nat = [\"12 um\", \"20 um\"]\n";
 
 INSTANTIATE_TEST_SUITE_P(
     All, BadDisplacementFields,
@@ -253,6 +224,15 @@ INSTANTIATE_TEST_SUITE_P(
         BadField{"oblique", "at = [", "plane = { x = [1, 0, 0], y = [1, 1, 0] }\nat = [", "must be at right angles"},
         BadField{"no_force_noise", "deviation = { column = \"deviation\", unit = \"N\" }\n", "",
                  "give [[experiment.specimens]] deviation"},
+        BadField{"no_force_noise_of_another", "[[experiment.fields]]\n",
+                 "[[experiment.specimens]]\nname = \"two\"\ncsv = \"bare_curve.csv\"\n"
+                 "displacement = { column = \"u\", unit = \"um\" }\nforce = { column = \"f\", unit = \"N\" }\n"
+                 "[[experiment.fields]]\nspecimen = \"one\"\n",
+                 "beside the rows of \"two\" is not known; give [[experiment.specimens]] deviation"},
+        BadField{"some_with_w", files, "files = [\"deep.csv\", \"flat.csv\"]\nat = [\"12 um\", \"20 um\"]\n",
+                 "one has displacements along z (w) and the other has none"},
+        BadField{"too_few_for_noise", files, "files = [\"flat.csv\"]\nat = [\"12 um\"]\ndrop_outliers = false\n",
+                 "has 5 data, and fewer than 20 do not tell their noise: state it by \"deviation\""},
         BadField{"unknown_key", "at = [", "frequency = 3\nat = [", "\"frequency\" is not known here"}),
     [](const auto& test) { return std::string(test.param.name); });
 

@@ -84,6 +84,9 @@ TEST(CurveMisfit, WeighsSpecimensByTheirScatter) {
   ASSERT_EQ(points.weight.size(), 2u);
   EXPECT_NEAR(points.weight[0] / points.weight[1], 4.0, 1e-12);
   EXPECT_NEAR(points.scale(points.points[0]) * 4.0, points.scale(points.points[2]), 1e-12);
+  const std::vector<double> weight = points.weight;
+  points.weight.clear();  // residuals behind those of the points are not theirs
+  EXPECT_EQ(weights_by_scatter({0.01, -0.01, 0.04, 0.04, 7.0, 8.0, 9.0}, points), weight);
 }
 
 TEST(CurveMisfit, KnowsWhichOffsetsContradictACurve) {

@@ -164,7 +164,8 @@ TEST(RigidMotion, IsTakenOutOfBoth) {
 
 /// Noise of a grid, and an error of the model that is a wave over the whole of it: means over `width` points each way of
 /// independent noise, `frames` of them with a share in common.
-FieldScatter scatter_of_noise(int width, int frames, double common, unsigned seed, double error = 0.0) {
+FieldScatter scatter_of_noise(int width, int frames, double common, unsigned seed, double error = 0.0,
+                              double subset = 0.0, double taken = 0.0) {
   const Mesh mesh = box_mesh({1.0, 4, 1.0}, {1.0, 4, 1.0}, {1.0, 1, 1.0});
   constexpr int n = 24;
   std::mt19937 engine(seed);
@@ -191,7 +192,8 @@ FieldScatter scatter_of_noise(int width, int frames, double common, unsigned see
     }
   }
   std::vector<FieldPlace> places;
-  const MeasuredField field = selected_field(field_of(recorded), {.most = 1000, .drops_outliers = false}, mesh, places);
+  MeasuredField field = selected_field(field_of(recorded), {.most = 1000, .drops_outliers = false}, mesh, places);
+  field.subset = subset;
   std::vector<std::size_t> all;
   std::vector<Eigen::MatrixXd> left;
   for (std::size_t f = 0; f < field.frames.size(); ++f) {
@@ -199,7 +201,7 @@ FieldScatter scatter_of_noise(int width, int frames, double common, unsigned see
     left.push_back(RigidMotion(field, field.frames[f])
                        .projected(frame_difference(field, field.frames[f], computed_by(places, zero))));
   }
-  return scatter_of(field, all, left);
+  return scatter_of(field, all, left, taken);
 }
 
 TEST(FieldScatter, OfIndependentNoiseIsThatOfAPoint) {
@@ -234,6 +236,15 @@ TEST(FieldScatter, SeesNoiseOfTheReferenceImage) {
     mean += scatter.inflation / 10.0;
   }
   EXPECT_NEAR(mean, std::sqrt(2.5), 0.25);
+}
+
+TEST(FieldScatter, IsWiderByOverlapAndByParameters) {
+  const FieldScatter plain = scatter_of_noise(1, 1, 0.0, 3), wide = scatter_of_noise(1, 1, 0.0, 3, 0.0, 5.0 / 24);
+  EXPECT_EQ(plain.inflation, 1.0);
+  EXPECT_NEAR(wide.inflation, 5.0, 1e-6);
+  EXPECT_EQ(wide.over, 5.0 / 24);
+  const FieldScatter fitted = scatter_of_noise(1, 1, 0.0, 3, 0.0, 0.0, 100.0);
+  EXPECT_NEAR(fitted.deviation, plain.deviation * std::sqrt(plain.freedom / (plain.freedom - 100.0)), 1e-12);
 }
 
 TEST(FieldScatter, TellsAnErrorOfTheModelFromNoise) {

@@ -129,6 +129,17 @@ TEST(Verdict, ComparesStarts) {
   EXPECT_EQ(judge(evidence).verdict, Verdict::sound);
 }
 
+// The rms of starts is over all data: of 3 + 5000 of known noise a rise of the rms by 1e-3 is one of the sum by 10.
+TEST(Verdict, CountsDataThatAreJudgedElsewhere) {
+  FitEvidence evidence = evidence_of(1, 1, true);
+  EXPECT_THAT(judge(evidence).reasons, ElementsAre(HasSubstr("3 data for 2 parameters")));
+  evidence.n_elsewhere = 5000;
+  EXPECT_THAT(judge(evidence).reasons, IsEmpty());
+  evidence.estimates[0] = {.name = "c", .value = 3.0, .standard_error = 0.1};
+  evidence.starts = {{.rms = 1.0, .parameters = {3.0, 1.0}}, {.rms = 1.001, .parameters = {7.7, 1.0}}};
+  EXPECT_THAT(judge(evidence).reasons, IsEmpty());
+}
+
 TEST(Verdict, FailsWhereThereIsNoFit) {
   FitEvidence evidence = evidence_of(1, 100, true);
   evidence.misfit = std::numeric_limits<double>::infinity();

@@ -146,7 +146,7 @@ class FrameTimes {
       const double factor = column.number("factor", 1.0);
       const double value = of_frame(frame, read_column(column, *frame.file, "column", "unit", dimension::length));
       if (std::isnan(value)) throw column.error(fmt::format("frame {} has no displacement", frame.name));
-      found.push_back(factor * as_curve(value));
+      found.push_back(as_curve(factor * value));
     }
     return found;
   }
@@ -226,6 +226,26 @@ RecordedFrame frame_of(const FrameRows& rows, const FieldColumns& c, double disp
   return frame;
 }
 
+/// As those of the reference image, which no noise is in.
+bool is_all_equal(const RecordedFrame& frame) {
+  return frame.u.size() > 1 && std::ranges::all_of(frame.u, [&](const Vector& u) { return u == frame.u.front(); });
+}
+
+/// Columns of each file. All have displacements out of the plane, or none.
+std::map<const CsvTable*, FieldColumns> columns_of(const ConfigTable& table, const std::vector<CsvTable>& files) {
+  std::map<const CsvTable*, FieldColumns> columns;
+  for (const CsvTable& file : files) columns.emplace(&file, columns_of(table, file));
+  const auto has_w = [&](const CsvTable& file) { return !columns.at(&file).w.empty(); };
+  const std::vector<ConfigValue> names = table.at("files").list();
+  for (std::size_t k = 1; k < files.size(); ++k)
+    if (has_w(files[k]) != has_w(files[0]))
+      throw names[k].error(
+          fmt::format("of \"{}\" and \"{}\" one has displacements along z (w) and the other has none; "
+                      "give files that are alike",
+                      names[0].string(), names[k].string()));
+  return columns;
+}
+
 }  // namespace
 
 RecordedField read_recorded_field(const FieldSettings& settings, const std::vector<MeasuredCurve>& specimens,
@@ -235,24 +255,30 @@ RecordedField read_recorded_field(const FieldSettings& settings, const std::vect
   const std::vector<CsvTable> files = read_files(table, case_directory);
   const std::vector<FrameRows> frames = frames_in(table, files);
   const std::vector<double> at = FrameTimes(settings, specimens[field.specimen], case_directory).of(frames);
-  std::map<const CsvTable*, FieldColumns> columns;
-  std::size_t n_bad = 0, n_unmatched = 0;
+  const std::map<const CsvTable*, FieldColumns> columns = columns_of(table, files);
+  field.n_components = columns.begin()->second.w.empty() ? 2 : 3;
+  std::size_t n_bad = 0, n_unmatched = 0, n_equal = 0;
   for (std::size_t k = 0; k < frames.size(); ++k) {
-    const auto [found, is_new] = columns.try_emplace(frames[k].file);
-    if (is_new) found->second = columns_of(table, *frames[k].file);
-    if (std::isnan(at[k]))
+    if (std::isnan(at[k])) {
       ++n_unmatched;
+      continue;
+    }
+    RecordedFrame frame = frame_of(frames[k], columns.at(frames[k].file), at[k], n_bad);
+    if (is_all_equal(frame))
+      ++n_equal;
     else
-      field.frames.push_back(frame_of(frames[k], found->second, at[k], n_bad));
-    field.n_components = found->second.w.empty() ? 2 : 3;
+      field.frames.push_back(std::move(frame));
   }
-  if (n_unmatched > 0)
-    table.remark(fmt::format("{} frames left out: no row of the curve's file is theirs", n_unmatched));
-  if (n_bad > 0) table.remark(fmt::format("{} points left out by their quality", n_bad));
+  const auto tell = [&](std::size_t n, std::string_view what) {
+    if (n > 0) field.told.push_back(fmt::format("{} {}", n, what));
+  };
+  tell(n_unmatched, "frames left out: no row of the curve's file is theirs");
+  tell(n_equal, "frames left out: all their displacements are equal, as of the reference image");
+  tell(n_bad, "points left out by their quality");
   std::ranges::stable_sort(field.frames, {}, &RecordedFrame::displacement);
   if (std::ranges::all_of(field.frames, [](const RecordedFrame& frame) { return frame.points.size() < 3; }))
-    throw table.error(
-        fmt::format("no frame has three points with values or more; {} frames were read", field.frames.size()));
+    throw table.error(fmt::format(
+        "no frame has three points with values or more that are not all equal; {} frames were read", frames.size()));
   return field;
 }
 

@@ -191,6 +191,7 @@ bool CurveFit::screen(const FitProblem& problem, const FitSettings& settings, do
 bool CurveFit::judge_stage(const DoneStage& done, FitFindings& found) {
   const double misfit = relative_misfit(done.result.residuals, done.points);
   return judge(found, {.series = series_of(done.points, done.result.residuals),
+                       .n_elsewhere = n_field_data(),
                        .result = &done.result,
                        .correlated_is_noise = done.points.noise_is_known || misfit < most_of_noise,
                        .negligible = negligible_misfit,

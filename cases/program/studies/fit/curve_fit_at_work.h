@@ -112,17 +112,24 @@ class CurveFit {
   };
   /// Computed less measured displacements of the frames of the stage, [field][frame]: (places, components) [m].
   using FieldDifferences = std::vector<std::vector<Eigen::MatrixXd>>;
-  /// The frames of a stage: between its displacements, reached by the run, and not within three standard deviations of
+  /// The frames of a stage: between its displacements, within the run, and not within three standard deviations of
   /// a jump that is an event.
   void select_frames(const CurveFitStage& stage, std::optional<double> until, const MeasuredPoints& points);
+  /// The first standard deviation of field k, before residuals tell. `latest`: end of the run [m]. Throws InputError
+  /// where it is not stated and the data of the stage are too few to tell it.
+  void set_first_noise(const CurveFitStage& stage, std::size_t k, double latest);
   std::size_t n_field_data() const;
+  std::size_t n_field_data(std::size_t k) const;  ///< of one field, in the stage
   std::optional<FieldDifferences> field_differences(const std::vector<double>& values, std::optional<double> until,
                                                     const std::vector<MeasuredEvent>& events, CurveModel& model);
   /// Behind those of points and events: without rigid motions, over their standard deviations.
   std::optional<std::vector<double>> field_residuals(const std::vector<double>& values, std::optional<double> until,
                                                      const std::vector<MeasuredEvent>& events, CurveModel& model);
-  /// What the residuals at these values say of the noise; returns whether residuals are over another one now.
-  bool set_field_noise(const FieldDifferences& differences);
+  /// What residuals about these estimates say of the noise of each field; returns whether there are any.
+  bool find_scatter(const CurveFitStage& stage, std::optional<double> until, const MeasuredPoints& points,
+                    const FitResult& result);
+  /// Returns whether residuals are over another noise now.
+  bool take_noise();
   /// Fits again where the noise of a field is another one than it was taken for.
   void weigh_fields(const CurveFitStage& stage, std::optional<double> until, const FitSettings& settings,
                     MeasuredPoints& points, FittedPoints& fitted);
@@ -132,7 +139,7 @@ class CurveFit {
   void doubt_fields(const DoneStage& done, FitFindings& found);
   /// A reason where field k scatters more than its stated noise.
   void doubt_noise(std::size_t k, FitFindings& found) const;
-  /// A reason where another scale of the displacements would explain what is left of field k, and whether it does.
+  /// A reason where the scale of the displacements of field k is surely another one, and whether it is.
   /// `rows`: its residuals among all, first and end.
   bool doubt_scale(const DoneStage& done, std::size_t k, const std::vector<Eigen::MatrixXd>& differences,
                    std::pair<std::ptrdiff_t, std::ptrdiff_t> rows, FitFindings& found) const;

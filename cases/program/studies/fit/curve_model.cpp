@@ -16,7 +16,7 @@ std::shared_ptr<const FieldHistory> CurveModel::history(const std::vector<double
   constexpr std::size_t most_kept = 64;
   const DoneRun done = runs_.run({variant(values)}, until).front();
   if (!done.went_well()) return nullptr;
-  const std::string key = done.folder.string() + (until ? std::to_string(*until) : "");
+  const std::pair key(done.folder.string(), until);
   if (const auto found = known_.find(key); found != known_.end()) return found->second;
   if (known_.size() >= most_kept) known_.clear();
   return known_[key] = std::make_shared<const FieldHistory>(history_(done.folder));

@@ -11,6 +11,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace pfdm {
@@ -43,7 +44,8 @@ class CurveModel {
   const std::vector<CaseParameter>& parameters_;
   ReadCurve read_;
   ReadHistory history_;
-  std::map<std::string, std::shared_ptr<const FieldHistory>> known_;  // a few, by folder and end
+  std::map<std::pair<std::string, std::optional<double>>, std::shared_ptr<const FieldHistory>>
+      known_;  // a few, by folder and end
   CaseRuns& runs_;
 };
 
