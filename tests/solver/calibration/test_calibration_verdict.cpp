@@ -136,6 +136,7 @@ TEST(Verdict, CountsDataThatAreJudgedElsewhere) {
   evidence.n_elsewhere = 5000;
   EXPECT_THAT(judge(evidence).reasons, IsEmpty());
   evidence.estimates[0] = {.name = "c", .value = 3.0, .standard_error = 0.1};
+  evidence.estimates[1] = {.name = "k", .value = 1.0, .standard_error = 0.1};
   evidence.starts = {{.rms = 1.0, .parameters = {3.0, 1.0}}, {.rms = 1.001, .parameters = {7.7, 1.0}}};
   EXPECT_THAT(judge(evidence).reasons, IsEmpty());
 }
