@@ -14,8 +14,8 @@
 
 namespace pfdm::field_plate {
 
-inline constexpr double length = 20.0, height = 10.0;                          // of a plate 1 mm thick [mm]
-inline constexpr double true_modulus = 70e9, true_ratio = 0.33, noise = 1e-4;  // of displacements [mm]
+inline constexpr double length = 20.0, height = 10.0;                           // of a plate 1 mm thick [mm]
+inline constexpr double plate_modulus = 70e9, true_ratio = 0.33, noise = 1e-4;  // of displacements [mm]
 
 inline const std::string plate = R"(
 kind = "fracture"
@@ -89,7 +89,7 @@ inline void write(const TemporaryCase& directory, const std::vector<std::vector<
   std::mt19937 engine(5);
   std::normal_distribution<double> normal(0.0, 7.0);
   for (int i = 1; i <= 20; ++i)
-    curve += fmt::format("{},{},7\n", i, 1e-6 * true_modulus * 1e-3 * i / length * height + normal(engine));
+    curve += fmt::format("{},{},7\n", i, 1e-6 * plate_modulus * 1e-3 * i / length * height + normal(engine));
   directory.write("curve.csv", "# SYNTHETIC, made by the test\n" + curve);
   for (std::size_t k = 0; k < frames.size(); ++k) {
     std::string text = "# SYNTHETIC, made by the test\n" + names + "\n";
