@@ -67,7 +67,8 @@ void CurveFit::select_frames(const CurveFitStage& stage, std::optional<double> u
   for (std::size_t k = 0; k < fields_.size(); ++k) {
     const MeasuredField& field = job_.fields.fields[k];
     const MeasuredCurve& specimen = job_.specimens[field.specimen];
-    const double latest = as_recorded(curve, least[field.specimen]).x.back(), slack = rounding * std::abs(latest);
+    const SampledCurve recorded = as_recorded(curve, least[field.specimen]);
+    const double latest = recorded.x.back(), slack = rounding * std::abs(latest);
     fields_[k] = {};
     std::size_t n_before = 0;
     for (std::size_t f = 0; f < field.frames.size(); ++f) {
@@ -75,7 +76,7 @@ void CurveFit::select_frames(const CurveFitStage& stage, std::optional<double> u
       if (place < stage.from || place > stage.to || at > latest + slack ||
           is_at_a_jump(points.events, field.specimen, at))
         continue;
-      if (place < curve.x.front() - slack) {
+      if (at < recorded.x.front() - slack) {
         ++n_before;
         continue;
       }
@@ -84,7 +85,7 @@ void CurveFit::select_frames(const CurveFitStage& stage, std::optional<double> u
     }
     if (n_before > 0)
       session_.log.warn(fmt::format("field \"{}\": {} frames left out: they were taken before the run begins, at {}",
-                                    field.name, n_before, quantity_text(curve.x.front(), "m")));
+                                    field.name, n_before, quantity_text(recorded.x.front(), "m")));
     set_first_noise(stage, k, latest);
   }
 }
