@@ -67,7 +67,8 @@ CalibratedMethod shear_corrected_beam_theory(const CalibrationData& data) {
   const std::string missing =
       missing_dimensions({{"transverse_modulus", s.transverse_modulus}, {"shear_modulus", s.shear_modulus}});
   if (!missing.empty()) return {.missing = missing};
-  const auto [E, delta] = shear_flexural_modulus(data);
+  const ShearModulus flexural = shear_flexural_modulus(data);
+  const double E = flexural.modulus, delta = flexural.delta;
   if (!(E > 0.0)) return {.missing = "the initial compliance is less than that of the beam's shear alone"};
   return {.at =
               [=, b = s.width, h = s.arm()](double P, double, double a) {

@@ -48,6 +48,7 @@ std::vector<std::string> specimen_names(const std::filesystem::path& cases_direc
   }
   std::ranges::sort(found);
   std::vector<std::string> names;
+  names.reserve(found.size());
   for (const auto& [order, name] : found) names.push_back(name);
   return names;
 }
