@@ -195,17 +195,13 @@ std::vector<std::string> names_of_options(const CLI::App& command) {
   return names;
 }
 
-std::string meant(const std::string& word, const std::vector<std::string>& words) {
-  const auto near = nearest(word, words);
-  return near ? fmt::format("; did you mean \"{}\"?", *near) : "";
-}
-
 bool is_command(const std::string& word, const CLI::App& app) {
   return std::ranges::count(names_of_commands(app), word) > 0;
 }
 
 std::string words_on_unknown(const std::string& word, const std::vector<std::string>& names) {
-  return fmt::format("unknown command \"{}\"{} (available: {})", word, meant(word, names), fmt::join(names, ", "));
+  return fmt::format("unknown command \"{}\"{} (available: {})", word, did_you_mean(word, names),
+                     fmt::join(names, ", "));
 }
 
 /// CLI11 would only say that a command is missing.
@@ -233,7 +229,7 @@ InputError wrong_usage(const CLI::App& app, const CLI::ParseError& error) {
     const std::string word = option->substr(0, option->find('='));
     if (std::ranges::count(names, word) > 0)
       return InputError(fmt::format("{} must follow the command, as in: pfdm {} ... {}", word, called, word));
-    return InputError(fmt::format("{} has no option \"{}\"{} (available: {})", called, word, meant(word, names),
+    return InputError(fmt::format("{} has no option \"{}\"{} (available: {})", called, word, did_you_mean(word, names),
                                   fmt::join(names, ", ")));
   }
   if (!left.empty())

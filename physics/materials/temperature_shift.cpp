@@ -2,6 +2,7 @@
 
 #include "physics/portable_math.h"
 
+#include <limits>
 #include <numbers>
 
 namespace pfdm {

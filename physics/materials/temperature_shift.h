@@ -3,8 +3,6 @@
 // one factor, tau(T) = a_T tau(T_ref) (Ferry, Viscoelastic Properties of Polymers, 1980, ch. 11). A step of the
 // duration dt at T is one of dt/a_T at T_ref.
 
-#include <limits>
-
 namespace pfdm {
 
 struct TemperatureShift {

@@ -11,9 +11,8 @@
 namespace pfdm {
 namespace {
 
-constexpr double straight_from = 0.1, straight_to = 0.5;  // of the greatest force
-constexpr double departure = 0.02;                        // of the line's force, at NL
-constexpr double scatters = 3.0;                          // of the rows about the line
+constexpr double departure = 0.02;  // of the line's force, at NL
+constexpr double scatters = 3.0;    // of the rows about the line
 
 std::size_t first_row_with(const TestRecord& record, double force) {
   return static_cast<std::size_t>(std::ranges::find_if(record.force, [=](double f) { return f >= force; }) -

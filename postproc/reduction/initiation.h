@@ -7,6 +7,9 @@
 
 namespace pfdm {
 
+/// Of the greatest force: between which the record is straight.
+inline constexpr double straight_from = 0.1, straight_to = 0.5;
+
 /// The straight part of a record: from 10 to 50 % of the greatest force, on the way to it.
 struct StraightPart {
   double compliance = not_given;  ///< C0 [m/N]
@@ -14,6 +17,9 @@ struct StraightPart {
   double greatest_force = not_given;
   std::size_t row_of_greatest = 0;
   std::size_t end = 0;  ///< the row after its last
+
+  /// Displacement along it from its origin to the greatest force [m].
+  double reach() const { return compliance * greatest_force; }
 };
 /// Throws InputError where fewer than three rows lie there, or the force does not rise.
 StraightPart straight_part(const TestRecord& record);

@@ -88,19 +88,20 @@ void BodyHeat::warm_on(const CellTemperature& temperature, double load, HeatStat
   const double begin = heat.elapsed;
   double dt = std::min(by.time / static_cast<double>(by.time_steps), longest);
   for (double change = 0.0; change < by.changes_within && heat.elapsed < end;) {
-    HeatState next = heat;
+    CellField<double> rise = heat.rise, given = power;
+    HeatBalance account = heat.account;
     const bool is_last = heat.elapsed + dt >= end * (1.0 - 1e-12);
     const double step = is_last ? end - heat.elapsed : dt;
-    CellField<double> given = power;
     for (double& q : given) q *= step;
-    equation_->step(step, given, next.rise, next.account);
-    next.elapsed = is_last ? end : heat.elapsed + step;
-    change =
-        temperature.change_of_moduli(heat.felt, next.rise, load, 2.0 * std::numbers::pi / (by.cycle * heat.duration));
-    if (change > most * by.changes_within && step > least_step * by.time)
+    equation_->step(step, given, rise, account);
+    change = temperature.change_of_moduli(heat.felt, rise, load, 2.0 * std::numbers::pi / (by.cycle * heat.duration));
+    if (change > most * by.changes_within && step > least_step * by.time) {
       dt = 0.5 * step, change = 0.0;
-    else
-      heat = std::move(next);
+      continue;
+    }
+    heat.rise = std::move(rise);
+    heat.account = account;
+    heat.elapsed = is_last ? end : heat.elapsed + step;
   }
   heat.stretch = heat.elapsed - begin;
   heat.stood_for = heat.cycle;

@@ -1,7 +1,8 @@
 #include "solver/fracture/heat_combinations.h"
 
 #include "physics/error.h"
-#include "physics/materials/prony.h"
+#include "physics/materials/temperature_shift.h"
+#include "solver/momentum/body/cell_eigenstrain.h"
 
 #include <fmt/format.h>
 
@@ -29,30 +30,26 @@ void require_heat(const Mesh& mesh, const FractureModel& m, const LoadingSetting
 
 void require_temperature(const Mesh& mesh, const FractureModel& m, const Unknowns& unknowns) {
   for (Index c = 0; c < mesh.n_cells(); ++c) {
-    const Material* material = m.in_cell(mesh, c).material.get();
-    const PronyLaw* law = material != nullptr ? material->relaxing() : nullptr;
-    if (law == nullptr || !law->shift) continue;
+    const TemperatureShift* shift = m.in_cell(mesh, c).temperature_shift();
+    if (shift == nullptr) continue;
     const auto refuse = [&](const std::string& what) {
       throw InputError(fmt::format("region \"{}\": its times depend on the temperature (temperature_shift): {}",
                                    mesh.region_names[mesh.region[c]], what));
     };
     if (m.loads.start_temperature == 0.0)
       refuse("give the temperature at which the body starts, as in start_temperature = \"20 degC\" in [loads]");
-    if (!(m.loads.start_temperature > law->shift->least_temperature()))
+    if (!(m.loads.start_temperature > shift->least_temperature()))
       refuse(fmt::format("start_temperature is {:.5g} K, its law holds above {:.5g} K, reference less C2",
-                         m.loads.start_temperature, law->shift->least_temperature()));
+                         m.loads.start_temperature, shift->least_temperature()));
   }
   const Vector& across = unknowns.plane_normal;
   if (!unknowns.loads.expansion || across.isZero()) return;
-  for (Index c = 0; c < mesh.n_cells(); ++c) {
-    constexpr double close_to_zero = 1e-9;  // of a vector's part, relative
-    const Vector strain = to_tensor(unknowns.loads.expansion(mesh, c)) * across;
-    if ((strain - across.dot(strain) * across).norm() > close_to_zero * strain.norm())
+  for (Index c = 0; c < mesh.n_cells(); ++c)
+    if (shears_across(to_tensor(unknowns.loads.expansion(mesh, c)), across))
       throw InputError(
           fmt::format("the expansion of region \"{}\" shears across a mesh one cell thick, which does not "
                       "follow the heat of coupling = \"two_way\"",
                       mesh.region_names[mesh.region[c]]));
-  }
 }
 
 }  // namespace pfdm

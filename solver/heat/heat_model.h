@@ -2,11 +2,11 @@
 // What heat does in a body that deforms, besides conductivity and capacity of its regions. Temperatures are rises above
 // that of the start, at which nothing flows.
 
+#include "physics/tensor.h"
 #include "solver/scalar/diffusion_boundary.h"
 
 #include <limits>
 #include <vector>
-#include "physics/tensor.h"
 
 namespace pfdm {
 

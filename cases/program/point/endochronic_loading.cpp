@@ -124,9 +124,8 @@ ControlledComponent controlled_component(std::string_view name) {
     if (k >= 3 && name == fmt::format("gamma_{}", component)) return {{Mandel::Zero(), 2.0 * unit}, k, false};
   }
   const std::vector<std::string>& keys = point_component_keys();
-  const auto meant = nearest(name, keys);
   throw InputError(fmt::format("\"{}\" is not a component of stress or strain{} (available: {})", name,
-                               meant ? fmt::format("; did you mean \"{}\"?", *meant) : "", fmt::join(keys, ", ")));
+                               did_you_mean(name, keys), fmt::join(keys, ", ")));
 }
 
 double read_component_value(const ConfigValue& value, bool is_stress) {

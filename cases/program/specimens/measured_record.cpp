@@ -2,6 +2,7 @@
 
 #include "cases/program/input/config/toml_document.h"
 #include "cases/program/input/config/units.h"
+#include "cases/program/input/fields/csv_columns.h"
 #include "physics/error.h"
 #include "physics/quantity_text.h"
 #include "postproc/files/csv_table.h"
@@ -80,9 +81,8 @@ StatedUnit stated_unit(const CsvTable& table, std::size_t column, const Dimensio
     return judged(table.units[column]);
   const std::string& name = table.names[column];
   if (const auto bracketed = bracketed_end(name)) return judged(*bracketed);
-  const std::size_t end = name.rfind('_');
-  const std::string suffix = end == std::string::npos ? "" : name.substr(end + 1);
-  return is_unit_of(suffix, due) ? StatedUnit{suffix, Is::due} : StatedUnit{};  // force_a has no unit of area
+  const std::string_view behind = unit_of_name(name, due);  // force_a has no unit of area
+  return behind.empty() ? StatedUnit{} : StatedUnit{std::string(behind), Is::due};
 }
 
 /// "Crack", "opening" of "Crack-opening [mm]", in small letters; bytes above ASCII are letters.

@@ -21,8 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double noticeable_origin = 0.01;                // of the displacement at the greatest force
-constexpr double straight_from = 0.1, straight_to = 0.5;  // of the greatest force
+constexpr double noticeable_origin = 0.01;  // of the displacement at the greatest force
 
 /// What the records say, before the case is written.
 struct RecordFindings {
@@ -72,16 +71,15 @@ RecordFindings findings_of(const std::string& text, bool has_reduction) {
 /// Where the straight part of the first record lies, whose toe is taken off.
 std::string straight_keys(const RecordFindings& found, bool has_toe) {
   const StraightPart& straight = found.straight.front();
-  const auto at = [&](double share) { return straight.compliance * share * straight.greatest_force; };
   const double origin = has_toe ? 0.0 : straight.origin;
   return fmt::format("stiffness_between = [\"{}\", \"{}\"]   # from 10 to 50 % of the greatest force\n",
-                     quantity_text(origin + at(straight_from), "m"), quantity_text(origin + at(straight_to), "m"));
+                     quantity_text(origin + straight_from * straight.reach(), "m"),
+                     quantity_text(origin + straight_to * straight.reach(), "m"));
 }
 
 /// Of a record whose straight part misses the origin; or "".
 std::string toe_of(const StraightPart& straight) {
-  const double reach = straight.compliance * straight.greatest_force;
-  if (std::abs(straight.origin) < noticeable_origin * reach) return "";
+  if (std::abs(straight.origin) < noticeable_origin * straight.reach()) return "";
   return fmt::format("toe = [\"{}\", \"{}\"]          # the straight part gives the origin: it was at {}\n",
                      quantity_text(straight_from * straight.greatest_force, "N"),
                      quantity_text(straight_to * straight.greatest_force, "N"), quantity_text(straight.origin, "m"));
@@ -204,8 +202,7 @@ Measured measured_or_none(const SpecimenFile& specimen, const SpecimenRequest& r
     for (const MeasuredRecord& record : records)
       for (const std::string& remark : record.remarks) said << fmt::format("  {}: {}\n", record.file, remark);
     guess_all(specimen, test.found, words, said);
-    const StraightPart& straight = test.found.straight.front();
-    straight_end = straight.compliance * straight_to * straight.greatest_force;
+    straight_end = straight_to * test.found.straight.front().reach();
   }
   words.numbers["has_record"] = files.empty() ? 0.0 : 1.0;
   words.numbers["reach"] = test.found.reach;

@@ -55,11 +55,9 @@ std::vector<std::string> specimen_names(const std::filesystem::path& cases_direc
 
 SpecimenFile read_specimen_file(const std::filesystem::path& cases_directory, const std::string& name) {
   const std::vector<std::string> names = specimen_names(cases_directory);
-  if (std::ranges::find(names, name) == names.end()) {
-    const auto near = nearest(name, names);
+  if (std::ranges::find(names, name) == names.end())
     throw InputError(fmt::format("--specimen: there is no specimen \"{}\"{} (available: {})", name,
-                                 near ? fmt::format("; did you mean \"{}\"?", *near) : "", fmt::join(names, ", ")));
-  }
+                                 did_you_mean(name, names), fmt::join(names, ", ")));
   const std::filesystem::path file = folder_in(cases_directory) / (name + ".toml");
   const Config config(read_file(file), file.string());
   const ConfigTable root = config.root();

@@ -5,6 +5,7 @@
 #include "cases/program/input/config/units.h"
 #include "physics/error.h"
 #include "physics/quantity_text.h"
+#include "postproc/files/text_file.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -15,11 +16,6 @@
 
 namespace pfdm {
 namespace {
-
-std::string without_blanks(std::string_view text) {
-  const auto begin = text.find_first_not_of(" \t\n"), end = text.find_last_not_of(" \t\n");
-  return begin == std::string_view::npos ? "" : std::string(text.substr(begin, end - begin + 1));
-}
 
 double plain_number(const std::string& text) {
   double number = 0.0;
@@ -47,25 +43,25 @@ InputError unknown_value(const SpecimenFile& specimen, const std::string& name, 
   std::vector<std::string> names;
   for (const SpecimenValue& value : specimen.values) names.push_back(value.name);
   names.insert(names.end(), others.begin(), others.end());
-  const auto near = nearest(name, names);
   return InputError(fmt::format("--set {}: {} has no such value{} (available: {})", name, specimen.name,
-                                near ? fmt::format("; did you mean \"{}\"?", *near) : "", fmt::join(names, ", ")));
+                                did_you_mean(name, names), fmt::join(names, ", ")));
 }
 
 /// What is between {{ and }}: a name, or a formula with its unit behind the last colon.
 std::string replacement(const std::string& piece, const SpecimenWords& words) {
   const std::size_t colon = piece.rfind(" : ");
   if (colon == std::string::npos) {
-    const auto written = words.texts.find(without_blanks(piece));
-    if (written == words.texts.end()) throw InputError(fmt::format("there is no value \"{}\"", without_blanks(piece)));
+    const std::string name(trimmed(piece));
+    const auto written = words.texts.find(name);
+    if (written == words.texts.end()) throw InputError(fmt::format("there is no value \"{}\"", name));
     const std::string& text = written->second;
     return text.find(' ') == std::string::npos && text.find('"') == std::string::npos &&
                    text.find_first_not_of("0123456789.+-eE") == std::string::npos
                ? text
                : fmt::format("\"{}\"", text);
   }
-  const double value = evaluated(without_blanks(piece.substr(0, colon)), words.numbers);
-  std::string unit = without_blanks(piece.substr(colon + 3));
+  const double value = evaluated(std::string(trimmed(std::string_view(piece).substr(0, colon))), words.numbers);
+  std::string unit(trimmed(std::string_view(piece).substr(colon + 3)));
   if (unit == "count") return fmt::format("{}", std::llround(value));
   if (unit == "1") return fmt::format("{:.6g}", value);
   const bool bare = unit.starts_with("in "), rounded = unit.starts_with("about ");
@@ -89,7 +85,8 @@ SpecimenWords specimen_words(const SpecimenFile& specimen, std::span<const std::
     if (equals == std::string::npos)
       throw InputError(fmt::format("--set {}: NAME=VALUE is required, as in --set \"{}={}\"", word,
                                    specimen.values.front().name, specimen.values.front().text));
-    const std::string name = without_blanks(word.substr(0, equals)), text = without_blanks(word.substr(equals + 1));
+    const std::string_view whole = word;
+    const std::string name(trimmed(whole.substr(0, equals))), text(trimmed(whole.substr(equals + 1)));
     if (std::ranges::find(others, name) != others.end()) {
       left_over[name] = text;
       continue;

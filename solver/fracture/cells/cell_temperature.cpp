@@ -10,13 +10,7 @@
 namespace pfdm {
 
 CellTemperature::CellTemperature(const Mesh& mesh, const FractureModel& model) : mesh_(mesh), model_(model) {
-  for (Index c = 0; c < mesh.n_cells() && !shifts_; ++c) shifts_ = shifting(c) != nullptr;
-}
-
-const PronyLaw* CellTemperature::shifting(Index cell) const {
-  const Material* material = model_.in_cell(mesh_, cell).material.get();
-  const PronyLaw* law = material != nullptr ? material->relaxing() : nullptr;
-  return law != nullptr && law->shift ? law : nullptr;
+  for (Index c = 0; c < mesh.n_cells() && !shifts_; ++c) shifts_ = shift(c) != nullptr;
 }
 
 double CellTemperature::temperature(Index cell, double load, double rise) const {
@@ -31,8 +25,8 @@ CellField<double> CellTemperature::factors(const FractureState& from, double loa
   const bool feels = model_.heat && model_.heat->is_two_way;
   CellField<double> factor(mesh_.n_cells(), 1.0);
   parallel_for(mesh_.n_cells(), [&](Index c) {
-    if (const PronyLaw* law = shifting(c))
-      factor[c] = law->shift->factor(temperature(c, 0.5 * (from.load + load), feels ? rise[c] : 0.0));
+    if (const TemperatureShift* by = shift(c))
+      factor[c] = by->factor(temperature(c, 0.5 * (from.load + load), feels ? rise[c] : 0.0));
   });
   return factor;
 }
@@ -41,11 +35,11 @@ double CellTemperature::change_of_moduli(const CellField<double>& before, const 
                                          double angular_frequency) const {
   if (!shifts_) return 0.0;
   return parallel_max(mesh_.n_cells(), [&](Index c) {
-    const PronyLaw* law = shifting(c);
-    if (law == nullptr || law->shear.empty()) return 0.0;
-    const RelaxationModulus modulus = shear_modulus(*law);
+    const TemperatureShift* by = shift(c);
+    if (by == nullptr) return 0.0;
+    const RelaxationModulus modulus = shear_modulus(*model_.in_cell(mesh_, c).material->relaxing());
     const auto at = [&](double rise) {
-      return complex_modulus(modulus, angular_frequency * law->shift->factor(temperature(c, load, rise)));
+      return complex_modulus(modulus, angular_frequency * by->factor(temperature(c, load, rise)));
     };
     const std::complex<double> then = at(before[c]), today = at(now[c]);
     const auto change = [](double from, double to) { return from > 0.0 ? std::abs(to / from - 1.0) : 0.0; };

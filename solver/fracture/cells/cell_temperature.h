@@ -25,7 +25,7 @@ class CellTemperature {
 
  private:
   double temperature(Index cell, double load, double rise) const;  // [K]
-  const PronyLaw* shifting(Index cell) const;                      // null: none
+  const TemperatureShift* shift(Index cell) const { return model_.in_cell(mesh_, cell).temperature_shift(); }
 
   const Mesh& mesh_;
   const FractureModel& model_;

@@ -1,5 +1,6 @@
 #include "solver/fracture/model/fracture_model.h"
 
+#include "physics/materials/prony.h"
 #include "solver/fracture/model/relaxing_volume.h"
 
 #include <algorithm>
@@ -21,6 +22,11 @@ bool FractureModel::is_isotropic() const {
 bool FractureModel::is_finite_strain() const {
   return std::ranges::any_of(
       regions, [](const RegionModel& region) { return region.material && region.material->is_finite_strain(); });
+}
+
+const TemperatureShift* RegionModel::temperature_shift() const {
+  const PronyLaw* law = material ? material->relaxing() : nullptr;
+  return law != nullptr && law->shift ? &*law->shift : nullptr;
 }
 
 bool FractureModel::is_plane_stress() const {

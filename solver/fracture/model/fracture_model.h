@@ -25,6 +25,8 @@
 
 namespace pfdm {
 
+struct TemperatureShift;
+
 /// Value at x [m] and the load parameter t.
 template <class Value>
 using LoadField = std::function<Value(const Vector& x, double t)>;
@@ -50,6 +52,8 @@ struct RegionModel {
   /// `elasticity` is it.
   std::shared_ptr<const MandelMatrix> stiffness{};
 
+  /// How the times of its material depend on the temperature; null: they do not, or there are none.
+  const TemperatureShift* temperature_shift() const;
   /// Toughness of the surface energy [J/m^2]: a strength model pays part of Gc otherwise.
   double surface_toughness() const { return strength.is_chosen() ? strength.delta() * Gc : Gc; }
 };

@@ -4,6 +4,12 @@
 
 namespace pfdm {
 
+bool shears_across(const Tensor& eigenstrain, const Vector& plane_normal) {
+  constexpr double close_to_zero = 1e-9;  // of the vector's part, relative
+  const Vector strain = eigenstrain * plane_normal;
+  return (strain - plane_normal.dot(strain) * plane_normal).norm() > close_to_zero * strain.norm();
+}
+
 bool CellEigenstrain::set(const Mesh& mesh, const VolumeLoads& loads, std::optional<double> t,
                           const CellField<double>& rise) {
   const bool is_warm = loads.expansion && rise.size() > 0;

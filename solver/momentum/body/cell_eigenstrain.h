@@ -8,6 +8,9 @@
 
 namespace pfdm {
 
+/// Whether an eigenstrain shears across a mesh one cell thick with this normal, whose cells cannot follow.
+bool shears_across(const Tensor& eigenstrain, const Vector& plane_normal);
+
 class CellEigenstrain {
  public:
   /// Takes the eigenstrains of the body at the load parameter t and these rises of the temperature [K], empty: none; or

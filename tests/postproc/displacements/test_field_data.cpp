@@ -162,8 +162,8 @@ TEST(RigidMotion, IsTakenOutOfBoth) {
   EXPECT_NEAR(motion.reduced(stretch).norm(), std::sqrt(weighted), 1e-12);
 }
 
-/// Noise of a grid, and an error of the model that is a wave over the whole of it: means over `width` points each way of
-/// independent noise, `frames` of them with a share in common.
+/// Noise of a grid, and an error of the model that is a wave over the whole of it: means over `width` points each way
+/// of independent noise, `frames` of them with a share in common.
 FieldScatter scatter_of_noise(int width, int frames, double common, unsigned seed, double error = 0.0,
                               double subset = 0.0, double taken = 0.0) {
   const Mesh mesh = box_mesh({1.0, 4, 1.0}, {1.0, 4, 1.0}, {1.0, 1, 1.0});

@@ -70,6 +70,20 @@ inline Pulled pull_at_once(const Mesh& mesh, const RegionModel& region, double d
   return result;
 }
 
+/// Shear modulus of the branch of rubber over mu, the relaxed one.
+inline constexpr double rubber_branch = 20.0;
+
+/// Rubber at once, with this Poisson's ratio.
+inline IsotropicElasticity stiff_rubber(double poisson) {
+  return from_young_poisson(2.0 * (1.0 + rubber_branch) * mu * (1.0 + poisson), poisson);
+}
+
+/// The same that relaxes within a second; its bulk modulus stays.
+inline PronyLaw relaxing_rubber(double poisson) {
+  return {.relaxed = {.lambda = stiff_rubber(poisson).bulk_modulus() - 2.0 * mu / 3.0, .mu = mu},
+          .shear = {{rubber_branch * mu, 1.0}}};
+}
+
 /// Of a Prony series, whose elasticity is the instantaneous one.
 inline RegionModel relaxing_region(const PronyLaw& law) {
   RegionModel region;

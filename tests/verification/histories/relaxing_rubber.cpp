@@ -16,8 +16,6 @@ namespace {
 
 using namespace discs;
 
-constexpr double branch = 20.0;  // shear modulus of the branch over the relaxed one
-
 struct Pad {
   const char* cells;
   Mesh mesh;
@@ -37,10 +35,10 @@ TEST(RelaxingRubber, DiscsRelaxToTheElasticOnes) {
   for (const double poisson : {0.46, 0.4997})
     for (const Index fine : {1, 2}) {
       const Mesh mesh = disc(20 * fine, 4 * fine);
-      const IsotropicElasticity stiff = from_young_poisson(2.0 * (1.0 + branch) * mu * (1.0 + poisson), poisson);
+      const IsotropicElasticity stiff = stiff_rubber(poisson);
       const double of_bulk = poisson < 0.47 ? stiff.bulk_modulus() / 3.0 : 0.0;
       const IsotropicElasticity soft{.lambda = stiff.bulk_modulus() - of_bulk - 2.0 * mu / 3.0, .mu = mu};
-      PronyLaw law{.relaxed = soft, .shear = {{branch * mu, 1.0}}};
+      PronyLaw law{.relaxed = soft, .shear = {{rubber_branch * mu, 1.0}}};
       if (of_bulk > 0.0) law.bulk = {{of_bulk, 3.0}};
       FractureRun run(mesh, disc_model(relaxing_region(law), pulled_at_once), closely, held(duration, 0.5));
       Pulled first, last;
@@ -64,11 +62,10 @@ TEST(RelaxingRubber, PadsOfAnyCellsRelaxToTheElasticOnes) {
   constexpr double duration = 200.0;
   for (const double poisson : {0.46, 0.4997})
     for (const Pad& pad : pads()) {
-      const IsotropicElasticity stiff = from_young_poisson(2.0 * (1.0 + branch) * mu * (1.0 + poisson), poisson);
-      const IsotropicElasticity soft{.lambda = stiff.bulk_modulus() - 2.0 * mu / 3.0, .mu = mu};
+      const PronyLaw law = relaxing_rubber(poisson);
       const auto pull = [&](const std::shared_ptr<const Material>& material) {
         FractureModel model =
-            elastic_model({material ? material->elasticity() : soft},
+            elastic_model({material ? material->elasticity() : law.relaxed},
                           {symmetry_on("xmin"), symmetry_on("ymin"),
                            displacement_on("zmin", [](const Vector&) -> Vector { return Vector::Zero(); }),
                            moved("zmax", {true, true, true}, [](const Vector&, double t) -> Vector {
@@ -83,7 +80,7 @@ TEST(RelaxingRubber, PadsOfAnyCellsRelaxToTheElasticOnes) {
         });
         return force / (1e-3 * mu);
       };
-      const double held = pull(make_prony({.relaxed = soft, .shear = {{branch * mu, 1.0}}})), due = pull(nullptr);
+      const double held = pull(make_prony(law)), due = pull(nullptr);
       report_row(fmt::format("held pad of {} {}, nu {}", pad.mesh.n_cells(), pad.cells, poisson),
                  {{"held", held}, {"relaxed", due}});
       EXPECT_NEAR(held, due, 1e-3 * due);
@@ -95,9 +92,7 @@ TEST(RelaxingRubber, DiscsThatAreLetBackKeepTheirAccount) {
   constexpr double duration = 40.0, poisson = 0.4997;
   for (const Index fine : {1, 2}) {
     const Mesh mesh = disc(20 * fine, 4 * fine);
-    const IsotropicElasticity stiff = from_young_poisson(2.0 * (1.0 + branch) * mu * (1.0 + poisson), poisson);
-    const PronyLaw law{.relaxed = {.lambda = stiff.bulk_modulus() - 2.0 * mu / 3.0, .mu = mu},
-                       .shear = {{branch * mu, 1.0}}};
+    const PronyLaw law = relaxing_rubber(poisson);
     const auto there_and_back = [](double t) {
       return t < 0.5 ? std::min(20.0 * t, 1.0) : std::max(1.0 - 20.0 * (t - 0.5), 0.0);
     };
@@ -120,9 +115,8 @@ TEST(RelaxingRubber, DiscsThatAreLetBackKeepTheirAccount) {
 // Free to expand under a temperature that varies linearly: no stress, however long it relaxes.
 TEST(RelaxingRubber, FreeBlocksUnderALinearTemperatureHaveNoStress) {
   constexpr double poisson = 0.4997, expansion = 1e-4;
-  const IsotropicElasticity stiff = from_young_poisson(2.0 * (1.0 + branch) * mu * (1.0 + poisson), poisson);
-  const PronyLaw law{.relaxed = {.lambda = stiff.bulk_modulus() - 2.0 * mu / 3.0, .mu = mu},
-                     .shear = {{branch * mu, 1.0}}};
+  const IsotropicElasticity stiff = stiff_rubber(poisson);
+  const PronyLaw law = relaxing_rubber(poisson);
   const Mesh mesh = mapped_box({6, 4, 4}, [](const Vector& s) -> Vector { return s; });
   FractureModel model = elastic_model({stiff}, {symmetry_on("xmin"), symmetry_on("ymin"), symmetry_on("zmin")});
   const auto most = [&](const std::shared_ptr<const Material>& material, const IsotropicElasticity& elasticity) {
@@ -149,7 +143,7 @@ TEST(RelaxingRubber, FreeBlocksUnderALinearTemperatureHaveNoStress) {
 TEST(RelaxingRubber, ADiscRelaxesByTheCorrespondencePrinciple) {
   constexpr double poisson = 0.4997;
   const Mesh mesh = disc(20, 4);
-  const double K = from_young_poisson(2.0 * (1.0 + branch) * mu * (1.0 + poisson), poisson).bulk_modulus();
+  const double K = stiff_rubber(poisson).bulk_modulus();
   const auto elastic = [&](double modulus) {  // mean stress over strain and mu; of the same operator
     const PronyLaw law{.relaxed = {.lambda = K - 2.0 * modulus / 3.0, .mu = modulus}, .shear = {{1e-12 * mu, 1.0}}};
     return pull_at_once(mesh, relaxing_region(law), 1e13, closely).modulus;
@@ -161,15 +155,15 @@ TEST(RelaxingRubber, ADiscRelaxesByTheCorrespondencePrinciple) {
     double sum = 0.0;
     for (std::size_t k = 0; k < weights.size(); ++k) {
       const double s = static_cast<double>(k + 1) * std::numbers::ln2 / time;
-      const double modulus = 1.0 + branch * s / (s + 1.0);
+      const double modulus = 1.0 + rubber_branch * s / (s + 1.0);
       sum += weights[k] * (elastic(mu * modulus) - modulus * relaxed) / s;
     }
-    return (1.0 + branch * std::exp(-time)) * relaxed + sum * std::numbers::ln2 / time;
+    return (1.0 + rubber_branch * std::exp(-time)) * relaxed + sum * std::numbers::ln2 / time;
   };
   const std::array times{0.5, 1.0, 2.0, 4.0, 8.0};
   std::size_t next = 0;
   constexpr double duration = 8.0;
-  const PronyLaw law{.relaxed = {.lambda = K - 2.0 * mu / 3.0, .mu = mu}, .shear = {{branch * mu, 1.0}}};
+  const PronyLaw law = relaxing_rubber(poisson);
   FractureRun run(mesh, disc_model(relaxing_region(law), pulled_at_once), closely,
                   held(duration, 0.05, {0.5, 1.0, 2.0, 4.0}));
   run_to_end(run, [&](const FractureState&, const StepReport& report) {

@@ -2,7 +2,6 @@
 
 #include "cases/program/input/fields/amount.h"
 #include "cases/program/input/fields/field_reader.h"
-#include "physics/materials/prony.h"
 
 #include <fmt/format.h>
 
@@ -80,9 +79,7 @@ void require_body_loads(const ConfigTable& root, const FractureModel& model, con
       throw root.table("loads").at("gravity").error(
           fmt::format("region \"{}\" has no density, on which gravity acts; give its material one, as in \"{}\"",
                       mesh.region_names[r], dimension::density.example));
-  const auto shifts = [](const RegionModel& region) {
-    return region.material && region.material->relaxing() != nullptr && region.material->relaxing()->shift;
-  };
+  const auto shifts = [](const RegionModel& region) { return region.temperature_shift() != nullptr; };
   const auto feels = [&](const RegionModel& region) { return !region.expansion.isZero() || shifts(region); };
   if (by.temperature && std::ranges::none_of(model.regions, feels))
     throw root.table("loads")

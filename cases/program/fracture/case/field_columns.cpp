@@ -2,12 +2,12 @@
 
 #include "cases/program/input/fields/csv_columns.h"
 #include "postproc/files/csv_words.h"
+#include "postproc/files/text_file.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cctype>
 #include <string>
 
 namespace pfdm {
@@ -37,8 +37,7 @@ const std::vector<ColumnNames>& known_names() {
 }
 
 bool is_pixel(std::string_view unit) {
-  std::string small(unit);
-  std::ranges::transform(small, small.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::string small = lower_case(unit);
   return small == "px" || small == "pixel" || small == "pixels" || small == "pix";
 }
 
@@ -51,17 +50,13 @@ std::string_view bare_name(std::string_view name) {
   return is_pixel(unit) || is_unit_of(unit, dimension::length) ? bare.substr(0, end) : bare;
 }
 
-bool same_letters(std::string_view a, std::string_view b) {
-  return std::ranges::equal(a, b, [](unsigned char c, unsigned char d) { return std::tolower(c) == std::tolower(d); });
-}
-
 std::optional<std::size_t> column_called(const CsvTable& file, std::string_view key) {
   const ColumnNames& wanted = *std::ranges::find(known_names(), key, &ColumnNames::key);
   for (const bool with_capitals : {true, false})
     for (const std::string_view name : wanted.names)
       for (std::size_t i = 0; i < file.names.size(); ++i) {
         const std::string_view bare = bare_name(file.names[i]);
-        if (bare == name || (!with_capitals && same_letters(bare, name))) return i;
+        if (bare == name || (!with_capitals && lower_case(bare) == lower_case(name))) return i;
       }
   return std::nullopt;
 }
@@ -107,10 +102,7 @@ std::optional<std::vector<double>> find_field_column(const ConfigTable& field, c
     column = column_called(file, key);
   }
   if (!column) return std::nullopt;
-  field.in_context([&] {
-    file.require_numbers(*column);
-    return true;
-  });
+  field.in_context([&] { file.require_numbers(*column); });
   const double factor = factor_of_column(field, own, file, *column, key);
   std::vector<double> values = file.columns[*column];
   for (double& value : values) value *= factor;

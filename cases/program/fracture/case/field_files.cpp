@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <numeric>
@@ -28,10 +29,7 @@ struct FrameRows {
 
 std::vector<double> numbers_of(const ConfigValue& column, const CsvTable& file) {
   const std::size_t found = find_column(column, file);
-  column.in_context([&] {
-    file.require_numbers(found);
-    return true;
-  });
+  column.in_context([&] { file.require_numbers(found); });
   return file.columns[found];
 }
 
@@ -133,20 +131,28 @@ class FrameTimes {
     return found;
   }
 
-  static double of_frame(const FrameRows& frame, const std::vector<double>& column) {
-    for (const std::size_t row : frame.rows)
-      if (!std::isnan(column[row])) return column[row];
-    return std::numeric_limits<double>::quiet_NaN();
+  /// What the rows of each frame have first in a column of its file, which is read once; NaN of those without.
+  template <class Read>
+  static std::vector<double> of_each(const std::vector<FrameRows>& frames, const Read& read) {
+    std::map<const CsvTable*, std::vector<double>> columns;
+    std::vector<double> found;
+    for (const FrameRows& frame : frames) {
+      const auto [at, is_new] = columns.try_emplace(frame.file);
+      if (is_new) at->second = read(*frame.file);
+      const auto row = std::ranges::find_if(frame.rows, [&](std::size_t i) { return !std::isnan(at->second[i]); });
+      found.push_back(row == frame.rows.end() ? std::numeric_limits<double>::quiet_NaN() : at->second[*row]);
+    }
+    return found;
   }
 
   std::vector<double> by_column(const std::vector<FrameRows>& frames) const {
     const ConfigTable column = table_.table("displacement");
-    std::vector<double> found;
-    for (const FrameRows& frame : frames) {
-      const double factor = column.number("factor", 1.0);
-      const double value = of_frame(frame, read_column(column, *frame.file, "column", "unit", dimension::length));
-      if (std::isnan(value)) throw column.error(fmt::format("frame {} has no displacement", frame.name));
-      found.push_back(as_curve(factor * value));
+    const double factor = column.number("factor", 1.0);
+    std::vector<double> found = of_each(
+        frames, [&](const CsvTable& file) { return read_column(column, file, "column", "unit", dimension::length); });
+    for (std::size_t k = 0; k < frames.size(); ++k) {
+      if (std::isnan(found[k])) throw column.error(fmt::format("frame {} has no displacement", frames[k].name));
+      found[k] = as_curve(factor * found[k]);
     }
     return found;
   }
@@ -156,10 +162,14 @@ class FrameTimes {
     const CsvTable file = read_csv_of(of_specimen_, directory_);
     const std::vector<double> keys = numbers_of(how.at("curve_column"), file),
                               in_file = column_of_curve(of_specimen_.table("displacement"));
+    std::vector<double> of_frames;
+    if (how.has("column"))
+      of_frames = of_each(frames, [&](const CsvTable& f) { return numbers_of(how.at("column"), f); });
+    else
+      std::ranges::transform(frames, std::back_inserter(of_frames), &FrameRows::number);
     std::vector<double> found;
     std::size_t n_matched = 0;
-    for (const FrameRows& frame : frames) {
-      const double key = how.has("column") ? of_frame(frame, numbers_of(how.at("column"), *frame.file)) : frame.number;
+    for (const double key : of_frames) {
       found.push_back(std::numeric_limits<double>::quiet_NaN());
       for (std::size_t i = 0; i + 1 < keys.size() && std::isnan(found.back()); ++i) {
         const double a = keys[i] - key, b = keys[i + 1] - key;

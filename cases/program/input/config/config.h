@@ -204,5 +204,7 @@ const Row& choose(const ConfigValue& value, std::span<const Row> table, std::str
 
 /// The candidate with the smallest edit distance to `word`, if it is near enough to be what was meant.
 std::optional<std::string> nearest(std::string_view word, std::span<const std::string> candidates);
+/// For a message: "; did you mean "thickness"?", or nothing where no candidate is near.
+std::string did_you_mean(std::string_view word, std::span<const std::string> candidates);
 
 }  // namespace pfdm

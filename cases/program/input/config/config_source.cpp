@@ -41,6 +41,11 @@ std::optional<std::string> nearest(std::string_view word, std::span<const std::s
   return best;
 }
 
+std::string did_you_mean(std::string_view word, std::span<const std::string> candidates) {
+  const auto near = nearest(word, candidates);
+  return near ? fmt::format("; did you mean \"{}\"?", *near) : "";
+}
+
 void ConfigSource::Opened::require_named(std::string_view key) const {
   if (!known().contains(std::string(key)))
     throw std::logic_error(fmt::format("{}\"{}\" is asked for and not among the table's keys", place(), key));
@@ -74,9 +79,7 @@ void ConfigSource::remark_at(int line, const std::string& message) {
 
 InputError ConfigSource::unknown_key(const Opened& table, const std::string& key, int line, bool list) const {
   const std::vector<std::string> known(table.known().begin(), table.known().end());
-  const auto meant = nearest(key, known);
-  return error_at(line, fmt::format("{}\"{}\" is not known here{}{}", table.place(), key,
-                                    meant ? fmt::format("; did you mean \"{}\"?", *meant) : "",
+  return error_at(line, fmt::format("{}\"{}\" is not known here{}{}", table.place(), key, did_you_mean(key, known),
                                     list ? fmt::format(" (allowed: {})", fmt::join(known, ", ")) : ""));
 }
 

@@ -118,9 +118,8 @@ std::string ConfigValue::choice() const {
 std::string ConfigValue::one_of(std::span<const std::string> allowed, std::string_view what) const {
   std::string value = string();
   if (std::find(allowed.begin(), allowed.end(), value) != allowed.end()) return value;
-  const auto meant = nearest(value, allowed);
-  throw error(fmt::format("\"{}\" is not {}{} (allowed: {})", value, with_article(what),
-                          meant ? fmt::format("; did you mean \"{}\"?", *meant) : "", fmt::join(allowed, ", ")));
+  throw error(fmt::format("\"{}\" is not {}{} (allowed: {})", value, with_article(what), did_you_mean(value, allowed),
+                          fmt::join(allowed, ", ")));
 }
 
 std::vector<ConfigValue> ConfigValue::list(std::optional<std::size_t> n) const {

@@ -71,13 +71,11 @@ double number_at(const Json& root, const Reference& reference) {
     const Json* const there = next(*here, step);
     if (there == nullptr) {
       const std::vector<std::string> names = names_in(*here);
-      const auto meant = nearest(step, names);
       const std::string there_is = here->is_array() ? fmt::format("a list of {}", here->size())
                                    : names.empty()  ? "nothing below it"
                                                     : fmt::format("{}", fmt::join(names, ", "));
       throw InputError(fmt::format("{} has no \"{}\": \"{}\" is not there{} (there is: {})", reference.from,
-                                   reference.key, step, meant ? fmt::format("; did you mean \"{}\"?", *meant) : "",
-                                   there_is));
+                                   reference.key, step, did_you_mean(step, names), there_is));
     }
     here = there;
   }

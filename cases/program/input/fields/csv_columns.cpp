@@ -12,21 +12,15 @@
 namespace pfdm {
 namespace {
 
-/// The end of a name after _, as in time_s and force_kN, if it is a unit that is due.
-double unit_of_name(std::string_view name, const Dimension& due) {
-  const std::size_t end = name.rfind('_');
-  if (end == std::string_view::npos) return 1.0;
-  const std::string_view unit = name.substr(end + 1);
-  const bool is_word = !unit.empty() && std::string_view("0123456789.+-").find(unit.front()) == std::string_view::npos;
-  return is_word && is_unit_of(unit, due) ? unit_in_si(unit, due) : 1.0;
-}
-
 /// How many `due.si_unit` the column's unit is: as the case says, or else the file.
 double unit_of_column(const ConfigTable& table, std::string_view unit_key, const CsvTable& file, std::size_t column,
                       const Dimension& due) {
   const std::string in_file = file.units.empty() || file.units[column] == "-" ? "" : file.units[column];
   if (!table.has(unit_key)) {
-    if (in_file.empty()) return unit_of_name(file.names[column], due);
+    if (in_file.empty()) {
+      const std::string_view unit = unit_of_name(file.names[column], due);
+      return unit.empty() ? 1.0 : unit_in_si(unit, due);
+    }
     return table.in_context([&] { return unit_in_si(in_file, due); });
   }
   const double factor = read_unit(table, unit_key, due);
@@ -39,6 +33,14 @@ double unit_of_column(const ConfigTable& table, std::string_view unit_key, const
 constexpr Range column_range{1.0, 1e6, false, "the number of a column, from 1"};
 
 }  // namespace
+
+std::string_view unit_of_name(std::string_view name, const Dimension& due) {
+  const std::size_t end = name.rfind('_');
+  if (end == std::string_view::npos) return {};
+  const std::string_view unit = name.substr(end + 1);
+  const bool is_word = !unit.empty() && std::string_view("0123456789.+-").find(unit.front()) == std::string_view::npos;
+  return is_word && is_unit_of(unit, due) ? unit : std::string_view();
+}
 
 std::size_t find_column(const ConfigValue& name, const CsvTable& file) {
   if (name.is_string()) return name.in_context([&] { return file.find(name.string()); });

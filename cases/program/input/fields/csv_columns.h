@@ -21,6 +21,9 @@ double read_unit(const ConfigTable& table, std::string_view key, const Dimension
 std::vector<double> read_column(const ConfigTable& table, const CsvTable& file, std::string_view column_key,
                                 std::string_view unit_key, const Dimension& due);
 
+/// "kN" of force_kN: the end of a name after _, if it is a unit that is due; else empty.
+std::string_view unit_of_name(std::string_view name, const Dimension& due);
+
 /// Which column of the file a name or a number from 1 means. Throws InputError where there is none.
 std::size_t find_column(const ConfigValue& name, const CsvTable& file);
 

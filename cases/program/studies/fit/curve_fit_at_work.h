@@ -120,6 +120,8 @@ class CurveFit {
   void set_first_noise(const CurveFitStage& stage, std::size_t k, double latest);
   std::size_t n_field_data() const;
   std::size_t n_field_data(std::size_t k) const;  ///< of one field, in the stage
+  /// Those of a field without the rigid motion of each frame.
+  std::vector<Eigen::MatrixXd> without_motion(std::size_t field, const FieldDifferences& differences) const;
   std::optional<FieldDifferences> field_differences(const std::vector<double>& values, std::optional<double> until,
                                                     const std::vector<MeasuredEvent>& events, CurveModel& model);
   /// Behind those of points and events: without rigid motions, over their standard deviations.

@@ -21,10 +21,8 @@ bool CurveFit::finer_explains(const DoneStage& done, const FitFindings& found, s
   CurveModel model(finer_->file, parameters_, job_.read_curve, job_.read_history, runs_);
   const auto differences = field_differences(values, done.until, done.points.events, model);
   if (!differences) return false;
-  std::vector<Eigen::MatrixXd> left;
-  for (std::size_t i = 0; i < fields_[field].frames.size(); ++i)
-    left.push_back(fields_[field].motions[i].projected((*differences)[field][i]));
-  return !scatter_of(job_.fields.fields[field], fields_[field].frames, left).is_long_ranged;
+  return !scatter_of(job_.fields.fields[field], fields_[field].frames, without_motion(field, *differences))
+              .is_long_ranged;
 }
 
 void CurveFit::doubt_fields(const DoneStage& done, FitFindings& found) {

@@ -164,6 +164,13 @@ std::optional<std::vector<double>> CurveFit::field_residuals(const std::vector<d
   return residuals;
 }
 
+std::vector<MatrixXd> CurveFit::without_motion(std::size_t k, const FieldDifferences& differences) const {
+  std::vector<MatrixXd> left;
+  for (std::size_t i = 0; i < fields_[k].frames.size(); ++i)
+    left.push_back(fields_[k].motions[i].projected(differences[k][i]));
+  return left;
+}
+
 bool CurveFit::find_scatter(const CurveFitStage& stage, std::optional<double> until, const MeasuredPoints& points,
                             const FitResult& result) {
   const auto differences = field_differences(with_stage(stage, result.values()), until, points.events, model_);
@@ -172,11 +179,9 @@ bool CurveFit::find_scatter(const CurveFitStage& stage, std::optional<double> un
   for (std::size_t k = 0; k < fields_.size(); ++k) {
     StageField& of_stage = fields_[k];
     if (of_stage.frames.empty()) continue;
-    std::vector<MatrixXd> left;
-    for (std::size_t i = 0; i < of_stage.frames.size(); ++i)
-      left.push_back(of_stage.motions[i].projected((*differences)[k][i]));
     const auto n = static_cast<Eigen::Index>(n_field_data(k));
-    of_stage.scatter = scatter_of(job_.fields.fields[k], of_stage.frames, left, taken_by_parameters(result, row, n));
+    of_stage.scatter = scatter_of(job_.fields.fields[k], of_stage.frames, without_motion(k, *differences),
+                                  taken_by_parameters(result, row, n));
     row += n;
   }
   return true;
