@@ -134,7 +134,7 @@ struct Staggered::Loop {
     const bool finite = s.stiffness_.finite().any();
     if (s.faces_.any() && finite && !(start.load > 0.0)) return energies.stored + energies.torn - torn_before;
     if (!s.faces_.any() || !(start.load > 0.0)) return energies.stored;
-    const double growth = state.load / start.load, stored = start.energy.elastic + start.energy.interface_energy;
+    const double growth = state.load / start.load, stored = start.energy.stored();
     if (!finite) return growth * growth * stored;
     const double work =
         s.work(start, state.load, s.momentum_.balance().boundary_forces(state.displacement), state.displacement);
@@ -161,6 +161,13 @@ struct Staggered::Loop {
     return std::sqrt(change / std::max(square([&](Index c) { return answer[c]; }), 1e-300));
   }
 
+  // What the stiffness errs by, over what the body stores: its cracks may have taken far more. A body that is unloaded
+  // stores nothing.
+  double unsettled_share(double energy) const {
+    constexpr double rounding = 1e-20;
+    return energies.unsettled / std::max({energies.stored, start.energy.stored(), rounding * energy, 1e-300});
+  }
+
   void renew_damage() {
     CellField<double> answer = state.damage;
     const double load = state.load;
@@ -172,11 +179,12 @@ struct Staggered::Loop {
         change < s.settings_.damage_tolerance ||
         (s.settings_.damage_tolerance_l2 > 0.0 && mean_change(answer) < s.settings_.damage_tolerance_l2);
     const double energy = load_scale * load_scale * energies.stored + s.damage_.fracture_energy(answer) + energies.torn;
-    const double energy_change = (std::abs(energy - energy_before) + energies.unsettled) / std::max(energy, 1e-300);
+    const double energy_change = std::abs(energy - energy_before) / std::max(energy, 1e-300) + unsettled_share(energy);
     energy_before = energy;
     ++outcome.iterations;
     outcome.rest = {restless, change, energy_change};
-    outcome.settled = solved && damage_is_settled && energy_change < s.settings_.energy_tolerance &&
+    outcome.settled = solved && damage_is_settled && s.stiffness_.moving_cracks() == 0 &&
+                      energy_change < s.settings_.energy_tolerance &&
                       std::abs(load_scale - 1.0) < s.settings_.damage_tolerance;
     outcome.converged = outcome.settled && outcome.residual <= s.settings_.equilibrium_tolerance;
     auto moved = CoupledNewton::Moved::no;

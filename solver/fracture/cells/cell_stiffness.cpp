@@ -8,6 +8,13 @@
 #include <map>
 
 namespace pfdm {
+namespace {
+
+constexpr double broken = 0.5;  // stiffness factor of cells whose closure matters to their neighbours
+constexpr Index restless = 3;   // reversals from which on a cell is between open and closed
+
+}  // namespace
+
 CellStiffness::CellStiffness(const Mesh& mesh, const FractureModel& model)
     : mesh_(mesh), model_(model), materials_(mesh, model), finite_(mesh, model), is_isotropic_(model.is_isotropic()) {
   if (!model.is_anisotropic()) return;
@@ -30,7 +37,10 @@ void CellStiffness::start_step(double duration, const CellField<double>& shift) 
   const std::size_t n = mesh_.n_cells();
   closing_ = CellField<float>(n, 0.0F);
   turns_ = CellField<Index>(n, 0);
+  moves_ = CellField<char>(n, 0);
 }
+
+Index CellStiffness::moving_cracks() const { return static_cast<Index>(std::count(moves_.begin(), moves_.end(), 1)); }
 
 const IsotropicElasticity& CellStiffness::elasticity(Index cell) const {
   return model_.in_cell(mesh_, cell).elasticity;
@@ -272,12 +282,14 @@ Tensor CellStiffness::closing_strain(Index cell, const CellMechanics& mechanics,
 double CellStiffness::follow_with_closure(Index cell, const Tensor& strain, FractureState& state) {
   double& closure = state.closure[cell];
   const double lag = split(cell).closure(strain) - closure;
+  moves_[cell] = 0;
   if (lag == 0.0) return 0.0;
   const double g = factor(cell, seen(cell, state));
   const double wrong = energy_density(split(cell).secant(elasticity(cell), g, closure + lag), strain) -
                        energy_density(split(cell).secant(elasticity(cell), g, closure), strain);
   if (lag * closing_[cell] < 0.0) ++turns_[cell];
   closing_[cell] = static_cast<float>(lag);
+  moves_[cell] = g < broken && std::abs(lag) > 0.5 && turns_[cell] < restless ? 1 : 0;
   // The kept fraction of the stiffness ranges from g to 1, over decades: steps are taken in its logarithm.
   const double step = 1.0 / (1.0 + turns_[cell]);
   const double kept = g + closure * (1.0 - g), wanted = lag > 0.0 ? 1.0 : g;

@@ -40,6 +40,9 @@ class CellStiffness {
   /// Has the closure or the tangent strain of the state follow the stress and the strain. Returns the energy error [J]
   /// of the stiffness that was used.
   double follow(const CellMechanics& mechanics, FractureState& state);
+  /// Number of broken cells whose crack the last follow() has opened or closed. Their energy may be small and what they
+  /// hold back large, as the last closed cell of a row. Cells that go to and fro do not count.
+  Index moving_cracks() const;
   /// Takes the cells with a history from `start` to these strains. Returns the energy error [J] of the stress that
   /// was used; NaN where a material's step cannot be solved.
   double integrate(const CellMechanics& mechanics, const FractureState& start, FractureState& state);
@@ -113,6 +116,7 @@ class CellStiffness {
   bool is_isotropic_;                                                   // every cell has isotropic secant moduli
   CellField<float> closing_;                                            // per cell: last change of the closure, and
   CellField<Index> turns_;                                              // number of its reversals within the step
+  CellField<char> moves_;                                               // whether its crack opens or closes
 };
 
 }  // namespace pfdm

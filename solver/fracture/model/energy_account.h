@@ -18,6 +18,7 @@ struct EnergyAccount {
   double strength_dissipation = 0.0;           ///< by the driving force of a strength model; negative in tension
   double eigenstrain_work = 0.0;               ///< supplied by eigenstrains, as by heating a bar that is held
   double interface_viscous_dissipation = 0.0;  ///< by the rate of cohesive interfaces and branches
+  double stored() const { return elastic + interface_energy; }
   friend bool operator==(const EnergyAccount&, const EnergyAccount&) = default;
 };
 
