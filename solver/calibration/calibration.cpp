@@ -5,6 +5,7 @@
 #include "solver/calibration/calibration_starts.h"
 #include "solver/calibration/calibration_statistics.h"
 #include "solver/calibration/levenberg_marquardt.h"
+#include "solver/linear/dense_algebra.h"
 
 #include <fmt/format.h>
 
@@ -14,13 +15,16 @@ namespace pfdm {
 namespace {
 
 /// Residuals and priors as functions of the scaled parameters.
-LeastSquaresProblem problem_of(const ScaledModel& model) {
-  LeastSquaresProblem problem{.residuals = [&](const Eigen::VectorXd& u) -> std::optional<Eigen::VectorXd> {
-                                const auto r = model.residuals(u);
-                                if (!r) return std::nullopt;
-                                return Eigen::VectorXd::Map(r->data(), std::ssize(*r));
-                              },
-                              .jacobian = [&](const Eigen::VectorXd& u) { return model.jacobian(u); }};
+using JacobianOf = std::optional<Eigen::MatrixXd> (ScaledModel::*)(const Eigen::VectorXd&) const;
+
+LeastSquaresProblem problem_of(const ScaledModel& model, JacobianOf jacobian = &ScaledModel::jacobian) {
+  LeastSquaresProblem problem{
+      .residuals = [&](const Eigen::VectorXd& u) -> std::optional<Eigen::VectorXd> {
+        const auto r = model.residuals(u);
+        if (!r) return std::nullopt;
+        return Eigen::VectorXd::Map(r->data(), std::ssize(*r));
+      },
+      .jacobian = [&model, jacobian](const Eigen::VectorXd& u) { return (model.*jacobian)(u); }};
   for (std::size_t j = 0; j < model.n_parameters(); ++j) problem.bounds.push_back(model.bounds(j));
   return problem;
 }
@@ -39,6 +43,28 @@ LeastSquaresSettings settings_of(const ScaledModel& model, const FitSettings& se
   if (settings.iterated)
     result.iterated = [&](const LeastSquaresPoint& point) { settings.iterated(iteration_of(model, point)); };
   return result;
+}
+
+/// What the linear model about x still takes from the sum of squares, relative, by parameters that are not at a bound.
+double promised_gain(const ScaledModel& model, const Eigen::VectorXd& x) {
+  const auto r = model.residuals(x);
+  auto J = model.jacobian_about(x);
+  if (!r || !J || J->rows() < J->cols()) return 0.0;
+  for (std::size_t j = 0; j < model.n_parameters(); ++j)
+    if (side_of_bound(x[static_cast<Eigen::Index>(j)], model.bounds(j)) != 0)
+      J->col(static_cast<Eigen::Index>(j)).setZero();
+  const Eigen::Map<const Eigen::VectorXd> residuals(r->data(), std::ssize(*r));
+  return (*J * scaled_least_squares(*J, residuals)).squaredNorm() / residuals.squaredNorm();
+}
+
+/// On from where shared differences have led, by those about the points themselves.
+void refine(const ScaledModel& model, const FitSettings& settings, LeastSquaresResult& best) {
+  if (!(promised_gain(model, best.x) > settings.cost_tolerance)) return;
+  LeastSquaresResult next =
+      minimise(problem_of(model, &ScaledModel::jacobian_about), best.x, settings_of(model, settings));
+  if (!(next.cost < best.cost)) return;
+  next.path.insert(next.path.begin(), best.path.begin(), best.path.end());
+  best = std::move(next);
 }
 
 void check(const FitProblem& problem) {
@@ -99,6 +125,7 @@ FitResult fit(const FitProblem& problem, const FitSettings& settings) {
     throw InputError(fmt::format(
         "{} residuals cannot determine {} parameters; at least as many residuals as parameters are required",
         model.n_residuals(), model.n_parameters()));
+  if (settings.differences == Differences::shared && !settings.ends_on_grid) refine(model, settings, best);
   result.noise_is_known = problem.noise_is_known;
   result.converged = best.converged;
   result.message = best.message;

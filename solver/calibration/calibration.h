@@ -41,7 +41,8 @@ using Residuals = std::function<std::optional<std::vector<double>>(std::span<con
 using ResidualJacobian = std::function<std::optional<Eigen::MatrixXd>(std::span<const double> parameters)>;
 
 /// `shared`: central about the nearest point of a grid, whose spacing is the step and which holds the first guess.
-/// Points near each other have them in common, also in fits to other data; they are a half step off at most.
+/// Points near each other have them in common, also in fits to other data; they are a half step off at most. Intervals,
+/// and steps that remain at the end, are by central ones about the estimates (FitSettings::ends_on_grid).
 enum class Differences { central, forward, shared };
 
 struct FitProblem {
@@ -73,9 +74,10 @@ struct FitSettings {
   double step = 6e-6;  ///< of the differences, in parameters over their first guess (or of the logarithm)
   double exactness =
       1e-7;  ///< of the derivatives, relative: parameters whose effects differ by less are not told apart
-  bool side_by_side = true;  ///< evaluations on all threads; not for models that use threads or processes themselves
-  int starts = 1;            ///< more than one: the others at random within the bounds
-  double spread = 1.0;       ///< of other starts about the first one, factor exp(+-spread), where there are no bounds
+  bool ends_on_grid = false;  ///< with shared differences: no others at the end, where nobody asks for intervals
+  bool side_by_side = true;   ///< evaluations on all threads; not for models that use threads or processes themselves
+  int starts = 1;             ///< more than one: the others at random within the bounds
+  double spread = 1.0;        ///< of other starts about the first one, factor exp(+-spread), where there are no bounds
   /// More than 0: instead of random starts so many points are evaluated once, the better third takes one step each, and
   /// the best `starts` of where those lead go on to the end. The points do not depend on the data, but for parameters
   /// that are not sampled, whose start is rounded so that similar fits have them in common: to `least_step`, or with
@@ -90,6 +92,12 @@ struct FitSettings {
 inline FitSettings from_one_start(FitSettings settings) {
   settings.starts = 1;
   settings.screened = 0;
+  return settings;
+}
+
+/// Likewise, with shared differences to the end, of a fit whose intervals nobody asks for.
+inline FitSettings on_grid(FitSettings settings) {
+  settings.ends_on_grid = true;
   return settings;
 }
 

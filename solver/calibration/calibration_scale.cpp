@@ -103,7 +103,15 @@ double ScaledModel::cost(const Eigen::VectorXd& u) const {
 
 std::optional<Eigen::MatrixXd> ScaledModel::jacobian(const Eigen::VectorXd& u) const {
   if (problem_.jacobian) return given_jacobian(u);
-  return differences(problem_.averaged ? problem_.averaged : problem_.residuals, u);
+  return differences(smooth(), centre_of_differences(u));
+}
+
+std::optional<Eigen::MatrixXd> ScaledModel::jacobian_about(const Eigen::VectorXd& u) const {
+  if (problem_.jacobian) return given_jacobian(u);
+  if (known_at_.size() == u.size() && known_at_ == u) return known_;
+  auto J = differences(smooth(), u);
+  if (J) known_at_ = u, known_ = *J;
+  return J;
 }
 
 std::optional<Eigen::MatrixXd> ScaledModel::given_jacobian(const Eigen::VectorXd& u) const {
@@ -167,8 +175,7 @@ Eigen::VectorXd ScaledModel::centre_of_differences(const Eigen::VectorXd& u) con
   return centre;
 }
 
-std::optional<Eigen::MatrixXd> ScaledModel::differences(const Residuals& model, const Eigen::VectorXd& where) const {
-  const Eigen::VectorXd u = centre_of_differences(where);
+std::optional<Eigen::MatrixXd> ScaledModel::differences(const Residuals& model, const Eigen::VectorXd& u) const {
   std::vector<Eigen::VectorXd> points{u};
   for (std::size_t j = 0; j < n_parameters(); ++j) {
     const auto above = moved(u, j, 1.0);

@@ -40,6 +40,12 @@ class ScaledModel {
   /// Of the data, then of the priors.
   std::optional<std::vector<double>> residuals(const Eigen::VectorXd& u) const;
   std::optional<Eigen::MatrixXd> jacobian(const Eigen::VectorXd& u) const;
+  /// By differences about u itself, whatever the settings; the latest is kept.
+  std::optional<Eigen::MatrixXd> jacobian_about(const Eigen::VectorXd& u) const;
+  /// That of the intervals.
+  std::optional<Eigen::MatrixXd> jacobian_at_end(const Eigen::VectorXd& u) const {
+    return settings_.ends_on_grid ? jacobian(u) : jacobian_about(u);
+  }
   /// About which differences are taken: u, or the nearest point of the grid.
   Eigen::VectorXd centre_of_differences(const Eigen::VectorXd& u) const;
   /// Half the sum of the squares, priors included; infinite where the model does not converge.
@@ -54,7 +60,8 @@ class ScaledModel {
  private:
   std::optional<Eigen::MatrixXd> given_jacobian(const Eigen::VectorXd& u) const;
   std::optional<std::vector<double>> evaluated(const Residuals& model, const Eigen::VectorXd& u) const;
-  std::optional<Eigen::MatrixXd> differences(const Residuals& model, const Eigen::VectorXd& u) const;
+  const Residuals& smooth() const { return problem_.averaged ? problem_.averaged : problem_.residuals; }
+  std::optional<Eigen::MatrixXd> differences(const Residuals& model, const Eigen::VectorXd& centre) const;
   /// Where parameter j is moved by `sign` steps; nothing beyond its bounds.
   std::optional<Eigen::VectorXd> moved(const Eigen::VectorXd& u, std::size_t j, double sign) const;
   double step_of(double u) const { return settings_.step * std::max(1.0, std::abs(u)); }
@@ -67,6 +74,8 @@ class ScaledModel {
   std::vector<double> scale_;
   mutable std::atomic<std::size_t> n_residuals_{0};
   mutable std::atomic<int> evaluations_{0};
+  mutable Eigen::VectorXd known_at_;  // of known_
+  mutable Eigen::MatrixXd known_;     // the latest Jacobian about a point itself
 };
 
 }  // namespace pfdm

@@ -136,7 +136,7 @@ double student_95(double degrees_of_freedom) { return student_quantile(0.95, deg
 
 void add_statistics(const ScaledModel& model, const Eigen::VectorXd& u, FitResult& result) {
   const auto r = model.residuals(u);
-  const auto J = model.jacobian(u);
+  const auto J = model.jacobian_at_end(u);
   if (!r || !J) throw NoConvergence("the model does not converge at the fitted parameters");
   const std::size_t n = model.n_residuals(), k = model.n_parameters();
   result.residuals.assign(r->begin(), r->begin() + static_cast<std::ptrdiff_t>(n));

@@ -201,11 +201,12 @@ class Descent {
   Descent(const FitProblem& fine, const CoarseModel& coarse, const FitSettings& settings)
       : fine_(fine), coarse_(coarse), settings_(settings), model_(fine, coarse, settings) {
     further_.cost_tolerance *= 0.1;
+    further_.ends_on_grid = true;
     further_.iterated = {};
   }
 
   MappedFit run() {
-    first_ = coarse_.fitted ? *coarse_.fitted : fit(coarse_.problem, settings_);
+    first_ = coarse_.fitted ? *coarse_.fitted : fit(coarse_.problem, on_grid(settings_));
     if (!model_.ask(first_.values())) return failed("the fine model does not converge where the coarse one fits best");
     tell();
     while (true) {
@@ -265,6 +266,7 @@ class Descent {
   MappedFit done(FitProblem mapped) const {
     FitSettings here = further_;
     here.maximum_iterations = 0;
+    here.ends_on_grid = false;
     MappedFit found{.result = fit(mapped, here), .mapped = {}, .failure = {}, .best = model_.best()};
     found.mapped = std::move(mapped);
     found.result.converged = true;

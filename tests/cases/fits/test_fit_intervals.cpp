@@ -143,6 +143,28 @@ TEST(FitIntervals, OfThePosteriorAreThoseOfTheLine) {
   EXPECT_TRUE(fit["posterior"]["law_files"].empty());
 }
 
+// The estimate lies half a step, 9 %, from the grid of the differences. The standard error of a line is known.
+TEST(FitIntervals, OfSharedDifferencesAreThoseOfTheLine) {
+  const TemporaryCase directory(case_with("differences = \"shared\"\nstep = 0.18\n"));
+  directory.write("data.csv", "displacement_m,force_N,deviation_N\n0,0,1\n1e-6,1,1\n");
+  const Line line = recorded(directory);
+  double mean = 0.0, squares = 0.0;
+  for (const double u : line.u) mean += u / static_cast<double>(line.u.size());
+  for (const double u : line.u) squares += std::pow(u - mean, 2);
+  const double exact = deviation / (line.slope * std::sqrt(squares));
+  nlohmann::json first;
+  for (const std::string threads : {"1", "3"}) {
+    const std::filesystem::path results = directory.path() / threads;
+    const Outcome outcome = run({"fit", directory.path().string(), "--threads", threads, "--output", results.string()});
+    ASSERT_EQ(outcome.status, 0) << outcome.err;
+    const auto fit = nlohmann::json::parse(content_of(results / "fit.json"));
+    ASSERT_EQ(fit["verdict"], "sound") << fit["reasons"];
+    EXPECT_NEAR(fit["parameters"][0]["standard_error"].get<double>(), exact, 0.015 * exact);
+    if (first.is_null()) first = fit["parameters"];
+    EXPECT_EQ(fit["parameters"], first);
+  }
+}
+
 // A stage of two points is not sound. That matters where its estimate stays, not where the last stage estimates anew.
 TEST(FitIntervals, AreMadeWhereTheLastStageMendsAnEarlierOne) {
   for (const bool anew : {true, false}) {

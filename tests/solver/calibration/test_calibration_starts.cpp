@@ -2,6 +2,7 @@
 
 #include "physics/error.h"
 #include "solver/calibration/calibration.h"
+#include "solver/calibration/quasi_random.h"
 #include "solver/parallel.h"
 #include "tests/solver/simple_fits.h"
 
@@ -93,21 +94,38 @@ TEST(Calibration, SampleKeepsWhatIsKnown) {
   EXPECT_THROW(fit(problem, settings), InputError);
 }
 
+/// Share of the points of a fit at which a fit to other data has been.
+double share_met_again(const FitSettings& settings) {
+  Asked first, second, both;
+  const FitResult one = fit(wave_problem(1, &first), settings), other = fit(wave_problem(2, &second), settings);
+  EXPECT_NE(one.values(), other.values());
+  std::ranges::set_intersection(first, second, std::inserter(both, both.end()));
+  return static_cast<double>(both.size()) / static_cast<double>(second.size());
+}
+
 TEST(Calibration, SharedDifferencesMeetAgainInFitsToOtherData) {
   // Both fits take their differences at the same points; central ones share those of the sample at most.
-  const auto share = [](Differences differences) {
-    FitSettings settings = screening_settings();
-    settings.differences = differences;
-    Asked first, second, both;
-    const FitResult one = fit(wave_problem(1, &first), settings), other = fit(wave_problem(2, &second), settings);
-    EXPECT_NE(one.values(), other.values());
-    std::ranges::set_intersection(first, second, std::inserter(both, both.end()));
-    return static_cast<double>(both.size()) / static_cast<double>(second.size());
-  };
-  const double shared = share(Differences::shared), central = share(Differences::central);
-  std::printf("shared points: %.0f %%, by central differences %.0f %%\n", 100.0 * shared, 100.0 * central);
+  FitSettings settings = screening_settings();
+  const double central = share_met_again(settings);
+  settings.differences = Differences::shared;
+  const double shared = share_met_again(on_grid(settings)), to_the_end = share_met_again(settings);
+  std::printf("shared points: %.0f %%, with those of the intervals %.0f %%, by central differences %.0f %%\n",
+              100.0 * shared, 100.0 * to_the_end, 100.0 * central);
   EXPECT_GT(shared, 0.8);
   EXPECT_LT(central, shared - 0.1);
+  EXPECT_LT(central, to_the_end - 0.1);
+}
+
+TEST(Calibration, SharedDifferencesCostTwoMoreRunsAParameterAtTheEnd) {
+  FitSettings settings = screening_settings();
+  settings.differences = Differences::shared;
+  for (unsigned seed = 1; seed <= 20; ++seed) {
+    Asked on_the_grid, to_the_end;
+    fit(wave_problem(seed, &on_the_grid), on_grid(settings));
+    settings.cost_tolerance = 1e-3;
+    fit(wave_problem(seed, &to_the_end), settings);
+    EXPECT_LE(to_the_end.size(), on_the_grid.size() + 4);
+  }
 }
 
 TEST(Calibration, SharedDifferencesLeadToTheSameEstimates) {
@@ -118,6 +136,85 @@ TEST(Calibration, SharedDifferencesLeadToTheSameEstimates) {
     EXPECT_NEAR(b.value, a.value, 0.02 * a.standard_error);
     EXPECT_NEAR(b.standard_error, a.standard_error, 0.02 * a.standard_error);
   }
+}
+
+/// p^10 x_i against data of p = `truth` with known noise: d/d ln p = 10 p^10 x_i. A grid of 0.05 in ln p.
+FitProblem power_problem(double truth, double noise) {
+  std::mt19937 engine(4);
+  std::normal_distribution<double> normal(0.0, noise);
+  const std::vector<double> x = abscissas(60);
+  std::vector<double> data;
+  for (const double xi : x) data.push_back(std::pow(truth, 10) * xi + normal(engine));
+  return {.parameters = {{.name = "p", .unit = "1", .first = 1.0, .lower = 0.1, .upper = 10.0, .log_scale = true}},
+          .residuals = [=](std::span<const double> p) -> std::optional<std::vector<double>> {
+            std::vector<double> r;
+            for (std::size_t i = 0; i < x.size(); ++i) r.push_back((std::pow(p[0], 10) * x[i] - data[i]) / noise);
+            return r;
+          },
+          .noise_is_known = true};
+}
+
+// Half a step off the derivative is exp(-+0.25) times that of the estimate. Central differences have it times
+// sinh(0.5) / 0.5 = 1.042.
+TEST(Calibration, SharedDifferencesHaveTheIntervalsOfTheEstimates) {
+  double squares = 0.0;
+  for (const double xi : abscissas(60)) squares += xi * xi;
+  for (const double away : {-0.024, -0.012, 0.0, 0.012, 0.024}) {
+    const double noise = 0.01;
+    const FitResult result = fit(power_problem(std::exp(0.1 + away), noise),
+                                 {.least_step = 1e-3, .differences = Differences::shared, .step = 0.05});
+    const FitEstimate& p = result.estimates[0];
+    const double exact = noise / (10.0 * std::pow(p.value, 10) * std::sqrt(squares));  // of ln p
+    std::printf("%+.3f of a grid point: standard error %.3f of the exact one\n", away,
+                p.standard_error / p.value / exact);
+    EXPECT_NEAR(p.standard_error / p.value / exact, 0.5 / std::sinh(0.5), 1e-3);
+    EXPECT_NEAR(std::log(p.upper_95 / p.lower_95), 2.0 * 1.96 * exact, 0.05 * 2.0 * 1.96 * exact);
+  }
+}
+
+/// A force that softens at once, a x exp(-(x/b)^8), with noise of a 2,000th of the peak.
+FitProblem softening_problem(double a, double b, unsigned seed) {
+  std::mt19937 engine(seed);
+  std::normal_distribution<double> normal(0.0, 1.0);
+  constexpr double noise = 0.0004;
+  const auto force = [](double at, double scale, double end) { return scale * at * std::exp(-std::pow(at / end, 8)); };
+  std::vector<double> x = abscissas(100), data;
+  for (double& xi : x) data.push_back(force(xi *= 2.0, a, b) + noise * normal(engine));
+  return {.parameters = {{.name = "a", .unit = "1", .first = 1.0, .lower = 0.1, .upper = 10.0, .log_scale = true},
+                         {.name = "b", .unit = "1", .first = 1.0, .lower = 0.1, .upper = 10.0, .log_scale = true}},
+          .residuals = [=](std::span<const double> p) -> std::optional<std::vector<double>> {
+            std::vector<double> r;
+            for (std::size_t i = 0; i < x.size(); ++i) r.push_back((force(x[i], p[0], p[1]) - data[i]) / noise);
+            return r;
+          },
+          .noise_is_known = true};
+}
+
+TEST(Calibration, SharedDifferencesEndWhereCentralOnesDo) {
+  FitSettings shared{.cost_tolerance = 2e-4, .least_step = 2e-3, .step = 0.05};
+  const FitSettings central = shared;
+  shared.differences = Differences::shared;
+  double moved = 0.0, moved_on_grid = 0.0, widest = 1.0, narrowest = 1.0;
+  for (unsigned seed = 0; seed < 60; ++seed) {
+    const double a = std::exp(0.15 + 0.05 * (radical_inverse(seed + 1, 2) - 0.5)),
+                 b = std::exp(-0.1 + 0.05 * (radical_inverse(seed + 1, 3) - 0.5));
+    const FitProblem problem = softening_problem(a, b, seed);
+    const FitResult one = fit(problem, central), other = fit(problem, shared), rough = fit(problem, on_grid(shared));
+    for (std::size_t j = 0; j < 2; ++j) {
+      const FitEstimate &c = one.estimates[j], &s = other.estimates[j];
+      moved = std::max(moved, std::abs(s.value - c.value) / c.standard_error);
+      moved_on_grid = std::max(moved_on_grid, std::abs(rough.estimates[j].value - c.value) / c.standard_error);
+      const double ratio = (s.upper_95 - s.lower_95) / (c.upper_95 - c.lower_95);
+      widest = std::max(widest, ratio), narrowest = std::min(narrowest, ratio);
+    }
+  }
+  std::printf(
+      "intervals of %.3f to %.3f times the width, estimates up to %.3f standard errors apart, on the grid %.3f\n",
+      narrowest, widest, moved, moved_on_grid);
+  EXPECT_GT(narrowest, 0.98);
+  EXPECT_LT(widest, 1.02);
+  EXPECT_LT(moved, 0.4);  // steps shorter than ten of them end both
+  EXPECT_GT(moved_on_grid, 1.0);
 }
 
 TEST(Calibration, SharedDifferencesCoverTheTruthAmongManyMinima) {

@@ -119,7 +119,7 @@ CurveFit::FittedPoints CurveFit::fit_points(const CurveFitStage& stage, const Me
                      .meet = [&](std::span<const double> values) { align(with_stage(stage, values), until); }};
   coarse.problem.parameters = problem.parameters;
   alignment_ = {};
-  coarse.fitted = fit_model(coarse.problem, points, settings);
+  coarse.fitted = fit_model(coarse.problem, points, on_grid(settings));
   session_.log.say("  the case itself where these lead");
   MappedFit mapped = fit_by_mapping(problem, coarse, settings);
   if (mapped.failure.empty()) return {std::move(mapped.result), std::move(mapped.mapped)};

@@ -60,7 +60,7 @@ std::optional<std::string> doubt_of_interval(const DoneFit& done, std::size_t k,
   const double there = place_of_trial(done.problem.parameters[k], estimate);
   log.say(
       fmt::format("  the others anew with {} = {}", done.parameters[k].short_name(), done.parameters[k].shown(there)));
-  FitSettings once = from_one_start(done.settings);
+  FitSettings once = on_grid(from_one_start(done.settings));
   if (done.settings.iterated)
     once.iterated = [&](FitIteration iteration) {  // of the others: told with the held one in its place
       iteration.parameters.insert(iteration.parameters.begin() + static_cast<std::ptrdiff_t>(k), there);

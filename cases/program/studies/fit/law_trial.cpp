@@ -39,7 +39,7 @@ std::optional<double> rms_of_fit(FitProblem problem, const FitResult& result, co
 std::optional<TriedLaw> best_other_law(const std::vector<CaseVariant>& laws, const FitResult& result,
                                        const std::function<FitProblem(const CaseFile&)>& problem_with,
                                        FitSettings settings, Log& log) {
-  settings = from_one_start(std::move(settings));
+  settings = on_grid(from_one_start(std::move(settings)));
   settings.maximum_iterations = iterations_of_trial;
   if (settings.differences == Differences::central) settings.differences = Differences::forward;
   settings.iterated = {};
