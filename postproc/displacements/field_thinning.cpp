@@ -4,6 +4,7 @@
 #include "physics/error.h"
 #include "physics/quantity_text.h"
 #include "postproc/displacements/field_outliers.h"
+#include "postproc/displacements/field_squares.h"
 #include "postproc/displacements/place_sampler.h"
 
 #include <fmt/format.h>
@@ -98,50 +99,6 @@ double side_of_squares(const std::vector<RecordedFrame>& frames, double spacing,
   return side;
 }
 
-/// Places that hold the same points are one.
-class PlaceList {
- public:
-  PlaceList(const FieldPlane& plane, std::vector<FieldPlace>& places) : plane_(plane), places_(places) {}
-  std::size_t number_of(const std::vector<Vector>& points) {
-    std::vector<double> key;
-    for (const Vector& p : points) key.insert(key.end(), {p[0], p[1], p[2]});
-    const auto [found, is_new] = known_.try_emplace(std::move(key), places_.size());
-    if (is_new) {
-      FieldPlace& place = places_.emplace_back();
-      for (const Vector& p : points) place.points.push_back(plane_.at(p));
-    }
-    return found->second;
-  }
-
- private:
-  const FieldPlane& plane_;
-  std::vector<FieldPlace>& places_;
-  std::map<std::vector<double>, std::size_t> known_;
-};
-
-FieldFrame averaged(const RecordedFrame& frame, double side, PlaceList& list) {
-  FieldFrame data{
-      .name = frame.name, .displacement = frame.displacement, .places = {}, .middle = {}, .u = {}, .n_points = {}};
-  std::map<Square, std::vector<std::size_t>> squares;
-  for (std::size_t i = 0; i < frame.points.size(); ++i)
-    squares[side > 0.0 ? square_of(frame.points[i], side) : Square{static_cast<long>(i), 0}].push_back(i);
-  for (const auto& [square, members] : squares) {
-    std::vector<Vector> points;
-    Vector middle = Vector::Zero(), u = Vector::Zero();
-    for (const std::size_t i : members) {
-      points.push_back(frame.points[i]);
-      middle += frame.points[i];
-      u += frame.u[i];
-    }
-    const auto n = static_cast<double>(members.size());
-    data.places.push_back(list.number_of(points));
-    data.middle.emplace_back(middle / n);
-    data.u.emplace_back(u / n);
-    data.n_points.push_back(n);
-  }
-  return data;
-}
-
 std::vector<std::string> told_of(const Selection& s, const std::vector<RecordedFrame>& kept, double side) {
   std::vector<std::string> told;
   std::size_t n = 0;
@@ -183,16 +140,24 @@ MeasuredField selected_field(const RecordedField& recorded, const FieldSelection
   const double side = side_of_squares(kept, field.spacing, how.most);
   field.pitch = side > 0.0 ? side : field.spacing;
   field.told = told_of(selection, kept, side);
-  PlaceList list(field.plane, places);
+  FieldSquares squares(field.plane, kept, side, places);
   for (const RecordedFrame& frame : kept) {
     if (frame.points.size() < fewest)
       field.told.push_back(fmt::format("frame {} is left out: it has {} points", frame.name, frame.points.size()));
     else
-      field.frames.push_back(averaged(frame, side, list));
+      field.frames.push_back(squares.means(frame));
   }
   if (field.frames.empty())
     throw InputError(fmt::format("no frame of \"{}\" has {} points or more that count: {}", recorded.name, fewest,
                                  field.told.front()));
+  if (squares.n_carried() > 0)
+    field.told.push_back(
+        fmt::format("{} means lack points that other frames have, and are carried to the middle of all by the plane "
+                    "through them",
+                    squares.n_carried()));
+  if (squares.n_own() > 0)
+    field.told.push_back(
+        fmt::format("{} means lack more, or are no plane: each is computed at its own points", squares.n_own()));
   field.told.insert(field.told.begin(), recorded.told.begin(), recorded.told.end());
   return field;
 }

@@ -5,6 +5,7 @@
 #include "postproc/displacements/field_thinning.h"
 #include "postproc/displacements/place_sampler.h"
 #include "tests/postproc/boxes.h"
+#include "tests/postproc/displacements/grid_fields.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -22,32 +23,6 @@ namespace {
 
 using test::box_mesh;
 using testing::HasSubstr;
-
-/// Of a grid in the plane, n points each way, `spacing` apart.
-RecordedFrame grid_frame(int n, double spacing, const std::function<Vector(const Vector&)>& u) {
-  RecordedFrame frame{.name = "1", .displacement = 1.0, .points = {}, .u = {}};
-  for (int i = 0; i < n; ++i)
-    for (int j = 0; j < n; ++j) {
-      frame.points.emplace_back(spacing * (i + 0.5), spacing * (j + 0.5), 0.0);
-      frame.u.push_back(u(frame.points.back()));
-    }
-  return frame;
-}
-
-Vector zero(const Vector&) { return Vector::Zero(); }
-
-RecordedField field_of(std::vector<RecordedFrame> frames) { return {.name = "front", .frames = std::move(frames)}; }
-
-/// Computed displacements of all places by a function of the place in the body.
-std::vector<double> computed_by(const std::vector<FieldPlace>& places, const std::function<Vector(const Vector&)>& u) {
-  std::vector<double> row;
-  for (const FieldPlace& place : places) {
-    Vector mean = Vector::Zero();
-    for (const Vector& x : place.points) mean += u(x) / static_cast<double>(place.points.size());
-    row.insert(row.end(), mean.begin(), mean.end());
-  }
-  return row;
-}
 
 // A linear displacement has a constant gradient, so that cell values and gradients give it exactly.
 TEST(PlaceSampler, IsExactForLinearDisplacements) {

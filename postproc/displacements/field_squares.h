@@ -1,0 +1,53 @@
+#pragma once
+// Means of recorded frames over squares of their plane, at places that frames with missing points have in common.
+
+#include "postproc/displacements/displacement_field.h"
+#include "postproc/displacements/field_outliers.h"
+
+#include <array>
+#include <cstddef>
+#include <limits>
+#include <map>
+#include <utility>
+#include <vector>
+
+namespace pfdm {
+
+/// The places of a field. The points of a square that at least half of the frames have are one place. A frame that
+/// lacks up to a quarter of them keeps that place: its mean is carried from the middle of its own points to that of the
+/// place by the plane through them. Otherwise, or where a plane is not what they show (a crack), it has a place of its
+/// own, as each point has where `side` is 0.
+class FieldSquares {
+ public:
+  /// Keeps references. New places come behind those of `places`.
+  FieldSquares(const FieldPlane& plane, const std::vector<RecordedFrame>& frames, double side,
+               std::vector<FieldPlace>& places);
+  FieldFrame means(const RecordedFrame& frame);
+  std::size_t n_carried() const { return n_carried_; }  ///< means so far
+  std::size_t n_own() const { return n_own_; }          ///< places of one frame's own so far
+
+ private:
+  using Point = std::array<double, 3>;
+  using Members = std::vector<std::size_t>;
+  /// Of the points of a frame in a square.
+  struct Mean {
+    std::vector<Vector> points;
+    Vector middle = Vector::Zero(), u = Vector::Zero();                        ///< [m]
+    Eigen::Matrix<double, 2, 3> slopes = Eigen::Matrix<double, 2, 3>::Zero();  ///< of the plane through them [-]
+    double scatter = std::numeric_limits<double>::infinity();  ///< about it [m]; infinite of too few points
+  };
+  std::map<Square, Members> squares_of(const RecordedFrame& frame) const;
+  static Mean mean_of(const RecordedFrame& frame, const Members& members);
+  std::size_t number_of(const std::vector<Vector>& points);
+  /// The number of the place of a mean, which is carried to its middle.
+  std::size_t place_of(const Square& square, double most_scatter, Mean& mean);
+
+  const FieldPlane& plane_;
+  double side_;
+  std::vector<FieldPlace>& places_;
+  std::map<std::vector<Point>, std::size_t> known_;  // numbers of places by their points
+  std::map<Square, std::vector<Vector>> common_;
+  std::size_t n_carried_ = 0, n_own_ = 0;
+};
+
+}  // namespace pfdm
