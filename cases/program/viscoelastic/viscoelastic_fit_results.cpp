@@ -2,6 +2,7 @@
 
 #include "cases/program/input/laws/prony_reader.h"
 #include "cases/program/studies/fit/material_tests.h"
+#include "cases/program/viscoelastic/viscoelastic_fit_band.h"
 #include "postproc/curves/fit_judgement.h"
 #include "postproc/files/atomic_file.h"
 #include "postproc/files/csv_table.h"
@@ -120,6 +121,7 @@ FitFindings write_fit_results(const std::filesystem::path& results, const CaseFi
     write_csv(results / fit_curve_file(test.name), fitted_curve(test, found.fit.law));
     report.experiments.push_back(misfit_of(test, found.fit.law));
   }
+  write_csv(results / modulus_band_file, modulus_band(found.fit, report.found, time_window(fit.experiments)));
   write_file(
       results / "case.fitted.toml",
       with_table(file, "material", "# estimated by pfdm fit\n[material]\n" + to_toml(found.fit.law) + "\n", results));
