@@ -106,9 +106,9 @@ def main(seed=71):
     noisy = lambda value: value * (1 + NOISE_DMA * draw.standard_normal(len(f)))
     write("dma.csv", "shear", "Frequency,Storage modulus,tan(delta)\nHz,MPa,-",
           [f, noisy(1e-6 * G.real), noisy(G.imag / G.real)])
-    f = np.geomspace(1e-5, 1e4, 91)
+    f = np.geomspace(1e-4, 200.0, 64)
     G = complex_modulus(f)
-    write("truth_complex_modulus.csv", "truth, shear", "frequency_Hz,storage_Pa,loss_Pa", [f, G.real, G.imag], False)
+    write("truth_complex_modulus.csv", "truth, shear", "frequency_Hz,true_shear_storage_modulus_Pa,true_shear_loss_modulus_Pa", [f, G.real, G.imag], False)
     time = np.linspace(0.0, LARGEST / FIFTH, 101)
     write("truth_fifth_rate.csv", f"truth, tension at {FIFTH:g} 1/s", "time_s,strain,stress_Pa",
           [time, FIFTH * time, tension(time, FIFTH * time)], False)

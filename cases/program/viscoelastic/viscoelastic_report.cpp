@@ -2,6 +2,7 @@
 
 #include "cases/program/point/endochronic_fit_charts.h"
 #include "cases/program/session/report_parts.h"
+#include "cases/program/viscoelastic/viscoelastic_fit_band.h"
 #include "physics/error.h"
 #include "postproc/curves/fit_json.h"
 #include "postproc/curves/summary.h"
@@ -129,6 +130,26 @@ Columns pairs_of(const CsvTable& curve, std::initializer_list<std::string_view> 
   return columns;
 }
 
+/// Storage and loss modulus of the fit, "young" or "shear", with their 95 % bands where they are known.
+Chart moduli_of_fit(const CsvTable& table, const std::string& which, const std::string& letter) {
+  const std::string storage = which + "_storage_modulus_Pa", loss = which + "_loss_modulus_Pa";
+  Columns columns{{storage, letter + "'"}, {loss, letter + "''"}};
+  const bool is_known = std::ranges::count(table.names, "lower_" + storage) > 0;
+  Chart chart = over_frequency(is_known ? "Complex modulus of the fit, 95 % bands" : "Complex modulus of the fit",
+                               table, true, columns);
+  const DisplayUnit unit = unit_of_columns(table, columns, "Pa");
+  for (int k = 0; is_known && k < 2; ++k) {
+    const std::string& column = columns[static_cast<std::size_t>(k)].first;
+    chart.series.push_back({.label = "",
+                            .x = table.column("frequency_Hz"),
+                            .y = in_unit(table.column("lower_" + column), unit),
+                            .style = SeriesStyle::band,
+                            .colour = k,
+                            .upper = in_unit(table.column("upper_" + column), unit)});
+  }
+  return chart;
+}
+
 std::vector<PageRow> rows_of_fit(const FitReport& fit, const fs::path& results) {
   std::vector<PageBlock> charts;
   for (const ExperimentMisfit& test : fit.experiments) {
@@ -141,6 +162,11 @@ std::vector<PageRow> rows_of_fit(const FitReport& fit, const fs::path& results) 
       charts.emplace_back(over_frequency(caption, curve, true, columns));
     if (const auto columns = pairs_of(curve, {"loss_factor"}); !columns.empty())
       charts.emplace_back(over_frequency(caption, curve, false, columns));
+  }
+  if (const fs::path file = results / modulus_band_file; fs::exists(file)) {
+    const CsvTable moduli = read_csv(file);
+    charts.emplace_back(moduli_of_fit(moduli, "young", "E"));
+    charts.emplace_back(moduli_of_fit(moduli, "shear", "G"));
   }
   return in_pairs(std::move(charts));
 }
