@@ -1,7 +1,6 @@
 #include "cases/program/viscoelastic/viscoelastic_fit_band.h"
 
 #include "physics/materials/prony_response.h"
-#include "solver/calibration/calibration_verdict.h"
 
 #include <fmt/format.h>
 
