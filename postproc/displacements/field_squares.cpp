@@ -11,7 +11,7 @@ namespace pfdm {
 namespace {
 
 constexpr double most_missing = 0.25;        // of the points of a place
-constexpr std::size_t fewest_of_plane = 6;   // points
+constexpr std::size_t fewest_of_plane = 4;   // points
 constexpr double no_plane = 2.0;             // times the median scatter about the planes of a frame
 constexpr double rounding_of_plane = 1e-12;  // of the largest displacement
 
@@ -75,6 +75,7 @@ FieldSquares::Mean FieldSquares::mean_of(const RecordedFrame& frame, const Membe
   for (const std::size_t i : members) mean.points.push_back(frame.points[i]);
   mean.middle = middle_of(mean.points);
   for (const std::size_t i : members) mean.u += frame.u[i] / static_cast<double>(members.size());
+  mean.n = static_cast<double>(members.size());
   if (members.size() < fewest_of_plane) return mean;
   Eigen::Matrix2d normal = Eigen::Matrix2d::Zero();
   Eigen::Matrix<double, 2, 3> sums = Eigen::Matrix<double, 2, 3>::Zero();
@@ -85,6 +86,7 @@ FieldSquares::Mean FieldSquares::mean_of(const RecordedFrame& frame, const Membe
   }
   normal += 1e-9 * normal.trace() * Eigen::Matrix2d::Identity();  // points along a line have no slope across it
   mean.slopes = normal.ldlt().solve(sums);
+  mean.inverse = normal.ldlt().solve(Eigen::Matrix2d::Identity());
   double squares = 0.0;
   for (const std::size_t i : members) {
     const Eigen::Vector2d d = (frame.points[i] - mean.middle).head<2>();
@@ -112,8 +114,8 @@ FieldFrame FieldSquares::means(const RecordedFrame& frame) {
     most_scatter = no_plane * *middle + rounding_of_plane * largest;
   }
   for (auto& [square, mean] : means) {
-    data.n_points.push_back(static_cast<double>(mean.points.size()));
     data.places.push_back(place_of(square, most_scatter, mean));
+    data.n_points.push_back(mean.n);
     data.middle.push_back(mean.middle);
     data.u.push_back(mean.u);
   }
@@ -134,7 +136,9 @@ std::size_t FieldSquares::place_of(const Square& square, double most_scatter, Me
   const Vector middle = middle_of(common->second);
   if (middle != mean.middle) {
     ++n_carried_;
-    mean.u += mean.slopes.transpose() * (middle - mean.middle).head<2>();
+    const Eigen::Vector2d by = (middle - mean.middle).head<2>();
+    mean.u += mean.slopes.transpose() * by;
+    mean.n = 1.0 / (1.0 / mean.n + by.dot(mean.inverse * by));  // as known as the plane is there
     mean.middle = middle;
   }
   return number_of(common->second);

@@ -33,7 +33,9 @@ class FieldSquares {
   struct Mean {
     std::vector<Vector> points;
     Vector middle = Vector::Zero(), u = Vector::Zero();                        ///< [m]
+    double n = 0.0;                                                            ///< points that would be as exact
     Eigen::Matrix<double, 2, 3> slopes = Eigen::Matrix<double, 2, 3>::Zero();  ///< of the plane through them [-]
+    Eigen::Matrix2d inverse = Eigen::Matrix2d::Zero();         ///< of the sum of squares of their distances [1/m^2]
     double scatter = std::numeric_limits<double>::infinity();  ///< about it [m]; infinite of too few points
   };
   std::map<Square, Members> squares_of(const RecordedFrame& frame) const;
