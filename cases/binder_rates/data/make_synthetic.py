@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Makes the synthetic tests of this case, and what they would be without noise at a rate that is not fitted. The binder has a
-continuous spectrum, a power law in time,
+"""Makes the synthetic tests of this case, and what they would be without noise at a rate that is not fitted. The binder
+has a continuous spectrum, a power law in time,
 
     G(t) = G_rest + G_1 (1 + t/t_0)^-n = G_rest + G_1 t_0^n / Gamma(n) int_0^inf s^(n-1) exp(-s t_0) exp(-s t) ds,
 
@@ -70,19 +70,20 @@ def write(name, remark, header, columns, noise=True):
 
 
 def write_truth_block():
-    """The block with the true spectrum, two branches a decade, in place of the estimates. Of t from 20 us to 20 s the sum is
-    G(t) within 0.1 %; what is slower is at rest for ever there, what is faster has gone."""
+    """The block with the true spectrum, two branches a decade, in place of the estimates. Of t from 20 us to 20 s the sum
+    is G(t) within 0.1 %; what is slower is at rest for ever there, what is faster has gone."""
     s, moduli = spectrum(2, 1e-12, 10**3.4)
     for t in np.geomspace(2e-5, 20.0, 20):
         assert abs((G_REST + (moduli * np.exp(-s * t)).sum()) / (G_REST + G_1 * (1 + t / T_0) ** -N) - 1) < 1e-3, t
     slow = s < 1e-3
     rest = G_REST + moduli[slow].sum()
-    young = 9 * K * rest / (3 * K + rest)
-    branches = "".join(f'  {{ modulus = "{m:.9g} Pa", time = "{1 / r:.9g} s" }},\n' for r, m in zip(s[~slow], moduli[~slow]))
+    young, nu = 9 * K * rest / (3 * K + rest), (3 * K - 2 * rest) / (6 * K + 2 * rest)
+    branches = "".join(f'  {{ modulus = "{m:.9g} Pa", time = "{1 / r:.9g} s" }},\n'
+                       for r, m in zip(s[~slow], moduli[~slow]))
     here = pathlib.Path(__file__).parent
     text = (here.parent / "block/case.toml").read_text(encoding="utf-8")
     begin, end = text.index("young_modulus"), text.index("damageable")
-    text = text[:begin] + (f'young_modulus = "{young:.9g} Pa"\npoisson_ratio = {(3 * K - 2 * rest) / (6 * K + 2 * rest):.9g}\n'
+    text = text[:begin] + (f'young_modulus = "{young:.9g} Pa"\npoisson_ratio = {nu:.9g}\n'
                            f"shear_branches = [\n{branches}]\n") + text[end:]
     text = re.sub("# estimates of pfdm fit.*", "# SYNTHETIC: the spectrum of data/make_synthetic.py", text)
     text = text.replace("at a rate that was not fitted, 2.5 1/s", "with its true spectrum, 2.5 1/s")
@@ -108,7 +109,8 @@ def main(seed=71):
           [f, noisy(1e-6 * G.real), noisy(G.imag / G.real)])
     f = np.geomspace(1e-4, 200.0, 64)
     G = complex_modulus(f)
-    write("truth_complex_modulus.csv", "truth, shear", "frequency_Hz,true_shear_storage_modulus_Pa,true_shear_loss_modulus_Pa", [f, G.real, G.imag], False)
+    write("truth_complex_modulus.csv", "truth, shear",
+          "frequency_Hz,true_shear_storage_modulus_Pa,true_shear_loss_modulus_Pa", [f, G.real, G.imag], False)
     time = np.linspace(0.0, LARGEST / FIFTH, 101)
     write("truth_fifth_rate.csv", f"truth, tension at {FIFTH:g} 1/s", "time_s,strain,stress_Pa",
           [time, FIFTH * time, tension(time, FIFTH * time)], False)

@@ -103,10 +103,11 @@ MeasuredFields fields_of_fit(const FractureProgram& program, const Mesh& mesh, L
     for (const FieldFrame& frame : field.frames) n += frame.places.size(), n_data += field.n_data(frame);
     if (!(field.deviation > 0.0) && n_data < fewest_for_noise)
       throw settings.where.error(too_few_for_noise(field.name, n_data));
-    log.say(fmt::format(
-        "field \"{}\": {} frames from {}, {} places of {} or {:.3g} points, {} components", field.name, field.frames.size(),
-        quantities_text({field.frames.front().displacement, field.frames.back().displacement}, "m", " to "), n,
-        quantity_text(field.pitch, "m", 3), field.frames.front().n_points.front(), field.n_components));
+    log.say(
+        fmt::format("field \"{}\": {} frames from {}, {} places of {} or {:.3g} points, {} components", field.name,
+                    field.frames.size(),
+                    quantities_text({field.frames.front().displacement, field.frames.back().displacement}, "m", " to "),
+                    n, quantity_text(field.pitch, "m", 3), field.frames.front().n_points.front(), field.n_components));
     for (const std::string& told : field.told) log.say(fmt::format("field \"{}\": {}", field.name, told));
   }
   return found;
