@@ -109,6 +109,10 @@ TEST(Specimens, RefuseWhatIsWrong) {
   expect_refused(dcb, {"--set", "strength=3 GPa"}, "a smaller strength");
   expect_refused(enf, {"--set", "crack_length=49 mm"}, "comes too near to the nose");
   expect_refused(enf, {"--set", "shear_toughness=100 J/m^2"}, "must be at least toughness");
+  const std::string compact = "compact_tension";
+  expect_refused(compact, {"--set", "crack_length=35 mm"}, "must be between 0.3 and 0.75 of depth");
+  expect_refused(compact, {"--set", "strength=5 MPa"}, "is not small against the ligament");
+  expect_refused(compact, {"--set", "strength=1 GPa"}, "a smaller strength");
   expect_refused(dcb, {"--data", "no_such_file.csv"}, "no_such_file.csv");
   expect_refused(dcb, {"--set", "force_column=F"}, "there is no record whose column it is");
 }
@@ -188,6 +192,11 @@ TEST(Specimens, AreAsStiffAsBeams) {
   const double bent = (2.0 * L * L * L + 3.0 * std::pow(30e-3 + 0.42 * chi * h, 3)) / (8.0 * E * b * h * h * h) +
                       3.0 * L / (10.0 * b * h * 5e9);
   EXPECT_NEAR(stiffness_of("end_notched_flexure") * bent, 1.0, 0.01);
+}
+
+// E' B C = 36.99 at a/W = 0.5 (Saxena, Hudak 1978), E = 3 GPa, nu = 0.35, B = 20 mm.
+TEST(Specimens, AreAsStiffAsCompactSpecimens) {
+  EXPECT_NEAR(stiffness_of("compact_tension") / (3e9 / (1.0 - 0.35 * 0.35) * 20e-3 / 36.99), 1.0, 0.01);
 }
 
 TEST(Reduce, NeedsASpecimen) {
