@@ -113,6 +113,10 @@ TEST(Specimens, RefuseWhatIsWrong) {
   expect_refused(compact, {"--set", "crack_length=35 mm"}, "must be between 0.3 and 0.75 of depth");
   expect_refused(compact, {"--set", "strength=5 MPa"}, "is not small against the ligament");
   expect_refused(compact, {"--set", "strength=1 GPa"}, "a smaller strength");
+  const std::string mixed = "mixed_mode_bending";
+  expect_refused(mixed, {"--set", "lever=15 mm"}, "is too short: at a third of half_span");
+  expect_refused(mixed, {"--set", "lever=50.1 mm"}, "make them equal");
+  expect_refused(mixed, {"--set", "crack_length=48 mm"}, "comes too near to the middle");
   expect_refused(dcb, {"--data", "no_such_file.csv"}, "no_such_file.csv");
   expect_refused(dcb, {"--set", "force_column=F"}, "there is no record whose column it is");
 }
@@ -192,6 +196,15 @@ TEST(Specimens, AreAsStiffAsBeams) {
   const double bent = (2.0 * L * L * L + 3.0 * std::pow(30e-3 + 0.42 * chi * h, 3)) / (8.0 * E * b * h * h * h) +
                       3.0 * L / (10.0 * b * h * 5e9);
   EXPECT_NEAR(stiffness_of("end_notched_flexure") * bent, 1.0, 0.01);
+}
+
+// ASTM D6671 at c = 42 mm: its roots' rotation is that of the model, up to the mix of both modes.
+TEST(Specimens, BendAsTheLeverOfTheStandardDoes) {
+  const double E = 130e9, b = 25e-3, h = 1.5e-3, chi = 1.830, L = 50e-3, c = 42e-3, a = 30e-3;
+  const double opened = 8.0 * std::pow(a + chi * h, 3) * std::pow(3.0 * c - L, 2);
+  const double bent = (6.0 * std::pow(a + 0.42 * chi * h, 3) + 4.0 * L * L * L) * std::pow(c + L, 2);
+  const double compliance = (opened + bent) / (16.0 * L * L * b * h * h * h * E);
+  EXPECT_NEAR(stiffness_of("mixed_mode_bending") * compliance, 1.0, 0.015);
 }
 
 // E' B C = 36.99 at a/W = 0.5 (Saxena, Hudak 1978), E = 3 GPa, nu = 0.35, B = 20 mm.
