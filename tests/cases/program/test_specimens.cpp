@@ -117,6 +117,10 @@ TEST(Specimens, RefuseWhatIsWrong) {
   expect_refused(mixed, {"--set", "lever=15 mm"}, "is too short: at a third of half_span");
   expect_refused(mixed, {"--set", "lever=50.1 mm"}, "make them equal");
   expect_refused(mixed, {"--set", "crack_length=48 mm"}, "comes too near to the middle");
+  const std::string lap = "lap_joint";
+  expect_refused(lap, {"--set", "shear_toughness=100 J/m^2"}, "must be at least toughness");
+  expect_refused(lap, {"--set", "overlap=2 mm"}, "two times the sheet's thickness");
+  expect_refused(lap, {"--set", "adhesive_shear_modulus=100 kPa"}, "breaks before it has stored its strength");
   expect_refused(dcb, {"--data", "no_such_file.csv"}, "no_such_file.csv");
   expect_refused(dcb, {"--set", "force_column=F"}, "there is no record whose column it is");
 }
@@ -179,13 +183,14 @@ TEST(Specimens, TurnShiftAndNameRecords) {
   EXPECT_EQ(run({"check", (directory.path() / "new").string()}).err, "");
 }
 
-/// Stiffness [N/m] of the first step.
-double stiffness_of(const std::string& specimen) {
+/// Stiffness [N/m] of the first step, with `more` in case.toml.
+double stiffness_of(const std::string& specimen, const std::string& force = "force_y_N", const std::string& more = "") {
   const TemporaryCase directory(bar_case());
   EXPECT_EQ(made(directory, specimen).status, 0);
+  directory.write("new/case.toml", content_of(directory.path() / "new/case.toml") + more);
   EXPECT_EQ(run({"run", (directory.path() / "new").string(), "--max-steps", "1", "--quiet"}).status, 0);
   const CsvTable curve = read_csv(directory.path() / "new/results/force_displacement.csv");
-  return curve.column("force_y_N")[1] / curve.column("displacement_m")[1];
+  return curve.column(force)[1] / curve.column("displacement_m")[1];
 }
 
 // E = 130 GPa, b = 25 mm, h = 1.5 mm, chi = 1.830 by hand (E33 = 9 GPa, G13 = 5 GPa).
@@ -210,6 +215,17 @@ TEST(Specimens, BendAsTheLeverOfTheStandardDoes) {
 // E' B C = 36.99 at a/W = 0.5 (Saxena, Hudak 1978), E = 3 GPa, nu = 0.35, B = 20 mm.
 TEST(Specimens, AreAsStiffAsCompactSpecimens) {
   EXPECT_NEAR(stiffness_of("compact_tension") / (3e9 / (1.0 - 0.35 * 0.35) * 20e-3 / 36.99), 1.0, 0.01);
+}
+
+// Shear lag (Volkersen 1938) where the sheets cannot bend: 63.5 mm free at each end, E' = 70 GPa/(1 - 0.33^2), t = 1.62
+// mm, K = 0.9 GPa/0.2 mm.
+TEST(Specimens, PassShearOverAsVolkersenSays) {
+  const double E = 70e9 / (1.0 - 0.33 * 0.33), t = 1.62e-3, l = 12.7e-3, b = 25.4e-3;
+  const double w = std::sqrt(2.0 * (0.9e9 / 0.2e-3) / (E * t));
+  const double compliance = (2.0 * 63.5e-3 + 0.5 * l + 1.0 / (w * std::tanh(0.5 * w * l))) / (E * t * b);
+  const std::string flat =
+      "\n[[boundary]]\npatches = [\"ymin\", \"ymax\"]\ndisplacement = [\"free\", \"0 mm\", \"free\"]\n";
+  EXPECT_NEAR(stiffness_of("lap_joint", "force_x_N", flat) * compliance, 1.0, 0.005);
 }
 
 TEST(Reduce, NeedsASpecimen) {
