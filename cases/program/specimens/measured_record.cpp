@@ -191,11 +191,18 @@ std::vector<FoundColumn> found_columns(const std::filesystem::path& csv, const C
   return found;
 }
 
-std::string column_text(const CsvTable& table, const FoundColumn& found, bool is_turned) {
+/// "" or ", factor = -1": forces that are turned, and those of a part of the specimen.
+std::string factor_text(const FoundColumn& found, bool is_turned, double share) {
+  const double factor = (is_turned && found.quantity->key != "crack_length" ? -1.0 : 1.0) *
+                        (found.quantity->key == "force" ? share : 1.0);
+  return factor == 1.0 ? "" : fmt::format(", factor = {:.9g}", factor);
+}
+
+std::string column_text(const CsvTable& table, const FoundColumn& found, bool is_turned, double share) {
   const std::string column =
       table.has_names() ? quoted_toml(without_unit(table.names[found.column])) : fmt::format("{}", found.column + 1);
   return fmt::format("{} = {{ column = {}, unit = \"{}\"{} }}\n", found.quantity->key, column, found.unit,
-                     is_turned && found.quantity->key != "crack_length" ? ", factor = -1" : "");
+                     factor_text(found, is_turned, share));
 }
 
 /// How far displacements lie below earlier ones, over their range.
@@ -243,7 +250,7 @@ std::vector<std::string> column_words() {
 }
 
 MeasuredRecord recognised(const std::filesystem::path& csv, const std::string& file, const std::string& name,
-                          const std::map<std::string, std::string>& columns) {
+                          const std::map<std::string, std::string>& columns, double share) {
   const CsvTable table = read_csv(csv, {.is_foreign = true, .is_unit = is_unit});
   const std::vector<FoundColumn> found = found_columns(csv, table, columns);
   const auto values = [&](std::string_view key) -> const std::vector<double>& {
@@ -255,13 +262,15 @@ MeasuredRecord recognised(const std::filesystem::path& csv, const std::string& f
       .text = fmt::format("[[experiment.specimens]]\nname = {}\ncsv = {}\n", quoted_toml(name), quoted_toml(file)),
       .remarks = {}};
   for (const FoundColumn& f : found) {
-    record.text += column_text(table, f, is_turned);
+    record.text += column_text(table, f, is_turned, share);
     record.remarks.push_back(
         fmt::format("{}: column {}{}", f.quantity->key,
                     table.has_names() ? fmt::format("\"{}\"", table.names[f.column]) : fmt::format("{}", f.column + 1),
                     f.stated.empty() ? fmt::format("; the file does not say its unit: {} taken", f.unit)
                                      : fmt::format(" in {}", f.unit)));
   }
+  if (share != 1.0)
+    record.remarks.push_back(fmt::format("{:.4g} of the specimen is computed: factor of forces", share));
   if (is_turned) record.remarks.emplace_back("forces are negative: factor = -1 turns force and displacement");
   record.text += treatment_of(values("displacement"), is_turned ? -1.0 : 1.0, record.remarks);
   return record;

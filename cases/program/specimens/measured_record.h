@@ -22,8 +22,9 @@ struct MeasuredRecord {
   std::vector<std::string> remarks;  ///< what was found and what was assumed, a sentence each
 };
 
+/// `share` is the part of the specimen that is computed, by which forces are multiplied.
 /// Throws InputError for a file that is no table, or in which a displacement or a force cannot be told.
 MeasuredRecord recognised(const std::filesystem::path& csv, const std::string& file, const std::string& name,
-                          const std::map<std::string, std::string>& columns);
+                          const std::map<std::string, std::string>& columns, double share = 1.0);
 
 }  // namespace pfdm

@@ -2,6 +2,7 @@
 
 #include "cases/program/fracture/case/experiment_case.h"
 #include "cases/program/fracture/case/reduction_case.h"
+#include "cases/program/input/config/expression.h"
 #include "cases/program/input/config/toml_document.h"
 #include "cases/program/specimens/measured_record.h"
 #include "cases/program/specimens/specimen_text.h"
@@ -124,10 +125,10 @@ std::vector<std::string> file_names(const std::vector<fs::path>& records) {
 }
 
 std::vector<MeasuredRecord> recognised_all(const SpecimenRequest& request, const std::vector<std::string>& files,
-                                           const std::map<std::string, std::string>& columns) {
+                                           const std::map<std::string, std::string>& columns, double share) {
   std::vector<MeasuredRecord> records;
   for (std::size_t i = 0; i < files.size(); ++i)
-    records.push_back(recognised(request.records[i], files[i], fs::path(files[i]).stem().string(), columns));
+    records.push_back(recognised(request.records[i], files[i], fs::path(files[i]).stem().string(), columns, share));
   return records;
 }
 
@@ -161,12 +162,15 @@ Measured measured(std::vector<MeasuredRecord> records, const SpecimenRequest& re
   return {experiment_text(records, keys, reduction), found};
 }
 
-std::string unmeasured(const std::string& reduction) {
+double share_of(const SpecimenFile& specimen) { return specimen.share.empty() ? 1.0 : evaluated(specimen.share, {}); }
+
+std::string unmeasured(const std::string& reduction, double share) {
   const MeasuredRecord example{.file = "data/record.csv",
                                .text =
                                    "[[experiment.specimens]]\nname = \"specimen 1\"\ncsv = \"data/record.csv\"\n"
                                    "displacement = { column = \"Displacement\", unit = \"mm\" }\n"
-                                   "force = { column = \"Load\", unit = \"N\" }\n",
+                                   "force = { column = \"Load\", unit = \"N\"" +
+                                   (share == 1.0 ? std::string() : fmt::format(", factor = {:.9g}", share)) + " }\n",
                                .remarks = {}};
   return experiment_text({example}, "stiffness_between = [\"0.1 mm\", \"1 mm\"]\n", reduction);
 }
@@ -197,7 +201,7 @@ Measured measured_or_none(const SpecimenFile& specimen, const SpecimenRequest& r
   Measured test;
   double straight_end = 0.0;
   if (!files.empty()) {
-    const std::vector<MeasuredRecord> records = recognised_all(request, files, columns);
+    const std::vector<MeasuredRecord> records = recognised_all(request, files, columns, share_of(specimen));
     test = measured(records, request, filled(specimen.reduction, words));
     for (const MeasuredRecord& record : records)
       for (const std::string& remark : record.remarks) said << fmt::format("  {}: {}\n", record.file, remark);
@@ -224,10 +228,11 @@ void make_specimen(const SpecimenRequest& request, std::ostream& out) {
   const Measured test = measured_or_none(specimen, request, files, columns, words, said);
   derive(specimen, words);
   const std::string fit = filled(specimen.fit_text, words);
-  const std::string text = schema_line(request) + filled(specimen.case_text, words) + "\n" +
-                           (files.empty() ? "# With a record of the test in data/, without the signs of comment:\n\n" +
-                                                commented(unmeasured(filled(specimen.reduction, words)) + fit)
-                                          : test.text + fit);
+  const std::string text =
+      schema_line(request) + filled(specimen.case_text, words) + "\n" +
+      (files.empty() ? "# With a record of the test in data/, without the signs of comment:\n\n" +
+                           commented(unmeasured(filled(specimen.reduction, words), share_of(specimen)) + fit)
+                     : test.text + fit);
   write_all(request, files, text, filled(specimen.readme, words));
   const std::string place = request.directory.string();
   out << fmt::format("made {} of {} ({}): case.toml, README.md", place, specimen.name, specimen.standard);

@@ -121,6 +121,10 @@ TEST(Specimens, RefuseWhatIsWrong) {
   expect_refused(lap, {"--set", "shear_toughness=100 J/m^2"}, "must be at least toughness");
   expect_refused(lap, {"--set", "overlap=2 mm"}, "two times the sheet's thickness");
   expect_refused(lap, {"--set", "adhesive_shear_modulus=100 kPa"}, "breaks before it has stored its strength");
+  const std::string disc = "poker_chip";
+  expect_refused(disc, {"--set", "diameter=4 mm"}, "must be 3 to 60 times the thickness");
+  expect_refused(disc, {"--set", "bulk_modulus=10 GPa"}, "0.47 to 0.4999 are rubbers");
+  expect_refused(disc, {"--set", "strength=200 MPa"}, "would open at once");
   expect_refused(dcb, {"--data", "no_such_file.csv"}, "no_such_file.csv");
   expect_refused(dcb, {"--set", "force_column=F"}, "there is no record whose column it is");
 }
@@ -183,6 +187,19 @@ TEST(Specimens, TurnShiftAndNameRecords) {
   EXPECT_EQ(run({"check", (directory.path() / "new").string()}).err, "");
 }
 
+TEST(Specimens, TakeThePartOfTheForceThatIsComputed) {
+  const TemporaryCase directory(bar_case());
+  std::string text = "displacement [mm],load [N]\n";
+  for (int i = 0; i <= 40; ++i) text += fmt::format("{},{}\n", 0.02 * i, 400.0 * i / (10 + i));
+  directory.write("disc.csv", text);
+  const Outcome outcome = made(directory, "poker_chip", {"--data", (directory.path() / "disc.csv").string()});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("0.01389 of the specimen is computed"));
+  EXPECT_THAT(content_of(directory.path() / "new/case.toml"),
+              HasSubstr("force = { column = \"load\", unit = \"N\", factor = 0.0138888889 }"));
+  EXPECT_EQ(run({"check", (directory.path() / "new").string()}).err, "");
+}
+
 /// Stiffness [N/m] of the first step, with `more` in case.toml.
 double stiffness_of(const std::string& specimen, const std::string& force = "force_y_N", const std::string& more = "") {
   const TemporaryCase directory(bar_case());
@@ -226,6 +243,13 @@ TEST(Specimens, PassShearOverAsVolkersenSays) {
   const std::string flat =
       "\n[[boundary]]\npatches = [\"ymin\", \"ymax\"]\ndisplacement = [\"free\", \"0 mm\", \"free\"]\n";
   EXPECT_NEAR(stiffness_of("lap_joint", "force_x_N", flat) * compliance, 1.0, 0.005);
+}
+
+// Apparent modulus K I2(s)/I0(s) + E of a thin layer, s = (3 mu/K)^(1/2) R/H, without the free rim: 25.51 MPa by hand,
+// of which elements have 24.86.
+TEST(Specimens, AreAsStiffAsBondedDiscs) {
+  const double area = 3.14159265 * 1e-4 / 72.0;
+  EXPECT_NEAR(stiffness_of("poker_chip", "force_z_N") * 1.9e-3 / area, 24.86e6, 0.01 * 24.86e6);
 }
 
 TEST(Reduce, NeedsASpecimen) {
