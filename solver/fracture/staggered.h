@@ -26,9 +26,11 @@ namespace pfdm {
 
 /// Changes by the last iteration of a step.
 struct Restless {
-  Index cell = 0;       ///< the one whose damage changed most
-  double damage = 0.0;  ///< by this
-  double energy = 0.0;  ///< the energy, relative
+  Index cell = 0;               ///< the one whose damage changed most
+  double damage = 0.0;          ///< by this
+  double energy = 0.0;          ///< the energy, relative
+  double stiffness = 0.0;       ///< error of stiffnesses that follow the strain, in energy over what the body stores
+  std::vector<Index> moving{};  ///< broken cells whose cracks have opened or closed
 };
 
 struct StepOutcome {

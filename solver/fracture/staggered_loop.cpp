@@ -179,12 +179,12 @@ struct Staggered::Loop {
         change < s.settings_.damage_tolerance ||
         (s.settings_.damage_tolerance_l2 > 0.0 && mean_change(answer) < s.settings_.damage_tolerance_l2);
     const double energy = load_scale * load_scale * energies.stored + s.damage_.fracture_energy(answer) + energies.torn;
-    const double energy_change = std::abs(energy - energy_before) / std::max(energy, 1e-300) + unsettled_share(energy);
+    const double energy_change = std::abs(energy - energy_before) / std::max(energy, 1e-300);
     energy_before = energy;
     ++outcome.iterations;
-    outcome.rest = {restless, change, energy_change};
-    outcome.settled = solved && damage_is_settled && s.stiffness_.moving_cracks() == 0 &&
-                      energy_change < s.settings_.energy_tolerance &&
+    outcome.rest = {restless, change, energy_change, unsettled_share(energy), s.stiffness_.moving_cracks()};
+    outcome.settled = solved && damage_is_settled && outcome.rest.moving.empty() &&
+                      energy_change + outcome.rest.stiffness < s.settings_.energy_tolerance &&
                       std::abs(load_scale - 1.0) < s.settings_.damage_tolerance;
     outcome.converged = outcome.settled && outcome.residual <= s.settings_.equilibrium_tolerance;
     auto moved = CoupledNewton::Moved::no;
@@ -198,7 +198,12 @@ struct Staggered::Loop {
       outcome.broke_too_much = outcome.growth > limits.growth || outcome.energy_release > limits.energy_release;
     }
     if (outcome.broke_too_much) outcome.converged = false;
-    report = {state.step, outcome.iterations, state.load, change, energy_change, report.krylov_iterations};
+    report = {state.step,
+              outcome.iterations,
+              state.load,
+              change,
+              energy_change + outcome.rest.stiffness,
+              report.krylov_iterations};
   }
 };
 

@@ -22,6 +22,22 @@ bool is_allowed(const Mesh& mesh, const FractureModel& model, const Unknowns& un
   return true;
 }
 
+// Stiffnesses that have not settled, as of cracks that close; "" where they have.
+std::string what_closes(const Mesh& mesh, const StaggeredSettings& settings, const Restless& rest) {
+  std::vector<std::string> left;
+  if (!rest.moving.empty()) {
+    const Vector& x = mesh.cell_centre[rest.moving.front()];
+    left.push_back(
+        fmt::format("cracks open or close in {} broken cells, among them cell {} at ({:.4g}, {:.4g}, {:.4g}) m",
+                    rest.moving.size(), rest.moving.front(), x[0], x[1], x[2]));
+  }
+  if (rest.energy + rest.stiffness >= settings.energy_tolerance && rest.stiffness > rest.energy)
+    left.push_back(fmt::format(
+        "stiffnesses that follow the strain err by {:.1e} of the stored energy (solver.energy_tolerance = {:g})",
+        rest.stiffness, settings.energy_tolerance));
+  return fmt::format("{}", fmt::join(left, ", "));
+}
+
 }  // namespace
 
 std::string what_changes(const Mesh& mesh, const StaggeredSettings& settings, const StepOutcome& outcome) {
@@ -38,6 +54,8 @@ std::string what_changes(const Mesh& mesh, const StaggeredSettings& settings, co
   if (outcome.rest.energy >= settings.energy_tolerance && !outcome.settled)
     left.push_back(fmt::format("the energy changes by {:.1e} of it (solver.energy_tolerance = {:g})",
                                outcome.rest.energy, settings.energy_tolerance));
+  if (const std::string cracks = what_closes(mesh, settings, outcome.rest); !cracks.empty() && !outcome.settled)
+    left.push_back(cracks);
   if (outcome.residual > settings.equilibrium_tolerance)
     left.push_back(fmt::format("the residual of the momentum balance is {:.1e} (solver.equilibrium_tolerance = {:g})",
                                outcome.residual, settings.equilibrium_tolerance));
@@ -64,7 +82,7 @@ std::string what_is_unbalanced(const Mesh& mesh, const Unknowns& unknowns, const
 std::string long_step_words(const IterationReport& report, double seconds, const std::string& held_up) {
   return fmt::format(
       "step {} at load {:.6g} has taken {:.0f} s so far, {} iterations: {}. What may help: a smaller "
-      "loading.maximum_increment, or a larger tolerance of those named",
+      "loading.maximum_increment, or a larger tolerance where one is named",
       report.step, report.load, seconds, report.iteration, held_up);
 }
 

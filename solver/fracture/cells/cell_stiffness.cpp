@@ -8,13 +8,6 @@
 #include <map>
 
 namespace pfdm {
-namespace {
-
-constexpr double broken = 0.5;  // stiffness factor of cells whose closure matters to their neighbours
-constexpr Index restless = 3;   // reversals from which on a cell is between open and closed
-
-}  // namespace
-
 CellStiffness::CellStiffness(const Mesh& mesh, const FractureModel& model)
     : mesh_(mesh), model_(model), materials_(mesh, model), finite_(mesh, model), is_isotropic_(model.is_isotropic()) {
   if (!model.is_anisotropic()) return;
@@ -34,13 +27,8 @@ CellHistories CellStiffness::virgin_histories() const {
 
 void CellStiffness::start_step(double duration, const CellField<double>& shift) {
   materials_.start_step(duration, shift);
-  const std::size_t n = mesh_.n_cells();
-  closing_ = CellField<float>(n, 0.0F);
-  turns_ = CellField<Index>(n, 0);
-  moves_ = CellField<char>(n, 0);
+  closures_.start_step(mesh_.n_cells());
 }
-
-Index CellStiffness::moving_cracks() const { return static_cast<Index>(std::count(moves_.begin(), moves_.end(), 1)); }
 
 const IsotropicElasticity& CellStiffness::elasticity(Index cell) const {
   return model_.in_cell(mesh_, cell).elasticity;
@@ -277,25 +265,14 @@ Tensor CellStiffness::closing_strain(Index cell, const CellMechanics& mechanics,
   return deviator(strain) + mechanics.stress[cell].trace() / (9.0 * K) * Tensor::Identity();
 }
 
-// The closure follows the strain with steps that shorten at each reversal. With full steps, cells at the edge of a
-// crack would open and close alternately without converging.
 double CellStiffness::follow_with_closure(Index cell, const Tensor& strain, FractureState& state) {
   double& closure = state.closure[cell];
-  const double lag = split(cell).closure(strain) - closure;
-  moves_[cell] = 0;
-  if (lag == 0.0) return 0.0;
+  const double wanted = split(cell).closure(strain), before = closure;
   const double g = factor(cell, seen(cell, state));
-  const double wrong = energy_density(split(cell).secant(elasticity(cell), g, closure + lag), strain) -
-                       energy_density(split(cell).secant(elasticity(cell), g, closure), strain);
-  if (lag * closing_[cell] < 0.0) ++turns_[cell];
-  closing_[cell] = static_cast<float>(lag);
-  moves_[cell] = g < broken && std::abs(lag) > 0.5 && turns_[cell] < restless ? 1 : 0;
-  // The kept fraction of the stiffness ranges from g to 1, over decades: steps are taken in its logarithm.
-  const double step = 1.0 / (1.0 + turns_[cell]);
-  const double kept = g + closure * (1.0 - g), wanted = lag > 0.0 ? 1.0 : g;
-  const double next = std::pow(kept, 1.0 - step) * std::pow(wanted, step);
-  const bool there = std::abs(next / wanted - 1.0) < 1e-3 || g == 1.0;
-  closure = there ? closure + lag : (next - g) / (1.0 - g);
+  closure = closures_.next(cell, g, before, wanted);
+  if (wanted == before) return 0.0;
+  const double wrong = energy_density(split(cell).secant(elasticity(cell), g, wanted), strain) -
+                       energy_density(split(cell).secant(elasticity(cell), g, before), strain);
   return mesh_.cell_volume[cell] * std::abs(wrong);
 }
 

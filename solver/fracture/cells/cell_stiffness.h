@@ -4,6 +4,7 @@
 // tangent. The tangent is the secant as well (energies of second degree), so the solves are Newton's steps. Cells with
 // a history are linearised about it, with a stress of their own.
 
+#include "solver/fracture/cells/crack_closures.h"
 #include "solver/fracture/cells/finite_cells.h"
 #include "solver/fracture/cells/material_cells.h"
 #include "solver/fracture/model/fracture_model.h"
@@ -40,9 +41,8 @@ class CellStiffness {
   /// Has the closure or the tangent strain of the state follow the stress and the strain. Returns the energy error [J]
   /// of the stiffness that was used.
   double follow(const CellMechanics& mechanics, FractureState& state);
-  /// Number of broken cells whose crack the last follow() has opened or closed. Their energy may be small and what they
-  /// hold back large, as the last closed cell of a row. Cells that go to and fro do not count.
-  Index moving_cracks() const;
+  /// Broken cells whose cracks the last follow() has opened or closed (crack_closures.h).
+  std::vector<Index> moving_cracks() const { return closures_.moving(); }
   /// Takes the cells with a history from `start` to these strains. Returns the energy error [J] of the stress that
   /// was used; NaN where a material's step cannot be solved.
   double integrate(const CellMechanics& mechanics, const FractureState& start, FractureState& state);
@@ -114,9 +114,7 @@ class CellStiffness {
   CellField<std::shared_ptr<const AnisotropicElasticity>> anisotropy_;  // null: isotropic; empty: all of them
   CellField<double> seen_;                                              // may be empty
   bool is_isotropic_;                                                   // every cell has isotropic secant moduli
-  CellField<float> closing_;                                            // per cell: last change of the closure, and
-  CellField<Index> turns_;                                              // number of its reversals within the step
-  CellField<char> moves_;                                               // whether its crack opens or closes
+  CrackClosures closures_;
 };
 
 }  // namespace pfdm

@@ -139,7 +139,7 @@ ElasticBody elastic_body(const FractureModel& model);
 struct StaggeredSettings {
   double damage_tolerance = 1e-4;       ///< largest change of d between iterations
   double damage_tolerance_l2 = 0.0;     ///< L2 norm of its change over that of d; suffices too. 0: not looked at
-  double energy_tolerance = 1e-4;       ///< change of the total energy over the energy
+  double energy_tolerance = 1e-4;       ///< change of the energy over it, and error of stiffnesses over the stored one
   double equilibrium_tolerance = 1e-6;  ///< row-scaled residual of the momentum balance at an accepted step, relative
   Index maximum_iterations = 500;
   double long_step = 120.0;              ///< time after which a step says how far it is [s]
