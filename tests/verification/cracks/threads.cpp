@@ -20,7 +20,7 @@ struct Outcome {
 
 Outcome debond(const Mesh& mesh, int threads) {
   set_threads(threads);
-  FractureRun run(mesh, bead_model(mesh, "volumetric_deviatoric", 0.2), {},
+  FractureRun run(mesh, bead_model(mesh, "volumetric_deviatoric", 0.2), {.equilibrium_tolerance = 1e-7},
                   {.initial_increment = 0.25, .maximum_increment = 0.25, .stops = {}});
   Outcome outcome;
   const auto step_done = [&](const FractureState&, const StepReport& report) {
@@ -57,7 +57,7 @@ TEST(Threads, ChangeNothing) {
   EXPECT_GT(*std::max_element(alone.state.damage.begin(), alone.state.damage.end()), 0.99);
   EXPECT_LE(alone.largest_imbalance, 1e-6);
 #if defined(__x86_64__)
-  EXPECT_EQ(checksum(alone.state), 11069357578267660593U);  // with AVX2, AVX-512 or neither
+  EXPECT_EQ(checksum(alone.state), 7620360186962194847U);  // with AVX2, AVX-512 or neither
 #endif
   for (const int threads : {2, 3}) {
     const Outcome together = debond(mesh, threads);
