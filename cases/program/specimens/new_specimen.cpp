@@ -78,12 +78,23 @@ std::string straight_keys(const RecordFindings& found, bool has_toe) {
                      quantity_text(origin + straight_to * straight.reach(), "m"));
 }
 
-/// Of a record whose straight part misses the origin; or "".
-std::string toe_of(const StraightPart& straight) {
-  if (std::abs(straight.origin) < noticeable_origin * straight.reach()) return "";
-  return fmt::format("toe = [\"{}\", \"{}\"]          # the straight part gives the origin: it was at {}\n",
-                     quantity_text(straight_from * straight.greatest_force, "N"),
-                     quantity_text(straight_to * straight.greatest_force, "N"), quantity_text(straight.origin, "m"));
+bool misses_origin(const StraightPart& straight) {
+  return std::abs(straight.origin) >= noticeable_origin * straight.reach();
+}
+
+/// Adds the toe of a record whose straight part misses the origin; as a comment where the specimen may stiffen.
+void add_toe(MeasuredRecord& record, const StraightPart& straight, bool is_taken) {
+  if (!misses_origin(straight)) return;
+  const std::string origin = quantity_text(straight.origin, "m");
+  record.text += fmt::format("{}toe = [\"{}\", \"{}\"]          # {} {}\n", is_taken ? "" : "# ",
+                             quantity_text(straight_from * straight.greatest_force, "N"),
+                             quantity_text(straight_to * straight.greatest_force, "N"),
+                             is_taken ? "the straight part gives the origin: it was at"
+                                      : "if the record has slack: its straight part meets zero force at",
+                             origin);
+  if (!is_taken)
+    record.remarks.push_back(fmt::format(
+        "the straight part meets zero force at {}; if that is slack, toe in case.toml takes it off", origin));
 }
 
 double guessed(const SpecimenValue& value, const std::vector<ReducedTest>& tests) {
@@ -148,16 +159,15 @@ struct Measured {
   RecordFindings found{};
 };
 
-Measured measured(std::vector<MeasuredRecord> records, const SpecimenRequest& request, const std::string& reduction) {
+Measured measured(std::vector<MeasuredRecord>& records, const SpecimenRequest& request, const std::string& reduction,
+                  bool takes_toe) {
   std::string keys = "stiffness_between = [\"0 m\", \"1 m\"]\n";
   const auto read = [&] {
     return findings_of(experiment_text(in_place(records, request), keys, reduction), !reduction.empty());
   };
   RecordFindings found = read();
-  std::vector<std::string> toes;
-  for (const StraightPart& straight : found.straight) toes.push_back(toe_of(straight));
-  for (std::size_t i = 0; i < records.size(); ++i) records[i].text += toes[i];
-  keys = straight_keys(found, !toes.front().empty());
+  for (std::size_t i = 0; i < records.size(); ++i) add_toe(records[i], found.straight[i], takes_toe);
+  keys = straight_keys(found, takes_toe && misses_origin(found.straight.front()));
   found = read();
   return {experiment_text(records, keys, reduction), found};
 }
@@ -201,8 +211,8 @@ Measured measured_or_none(const SpecimenFile& specimen, const SpecimenRequest& r
   Measured test;
   double straight_end = 0.0;
   if (!files.empty()) {
-    const std::vector<MeasuredRecord> records = recognised_all(request, files, columns, share_of(specimen));
-    test = measured(records, request, filled(specimen.reduction, words));
+    std::vector<MeasuredRecord> records = recognised_all(request, files, columns, share_of(specimen));
+    test = measured(records, request, filled(specimen.reduction, words), specimen.takes_toe);
     for (const MeasuredRecord& record : records)
       for (const std::string& remark : record.remarks) said << fmt::format("  {}: {}\n", record.file, remark);
     guess_all(specimen, test.found, words, said);

@@ -30,6 +30,7 @@ struct SpecimenFile {
   std::vector<SpecimenValue> values{};
   std::vector<std::pair<std::string, std::string>> derived{};  ///< name and formula, in their order
   std::vector<SpecimenRule> rules{};
+  bool takes_toe = true;    ///< slack of records is taken off
   std::string share{};      ///< formula: which part of the specimen is computed; empty: all of it
   std::string case_text{};  ///< of case.toml, with {{ formula : unit }} in it
   std::string reduction{};  ///< of [experiment.reduction]; empty: there is none
