@@ -260,6 +260,17 @@ TEST(Specimens, PassShearOverAsVolkersenSays) {
   EXPECT_NEAR(stiffness_of("lap_joint", "force_x_N", flat) * compliance, 1.0, 0.005);
 }
 
+// Thick sheets bend at the overlap, and give 1.3 times what they do in line.
+TEST(Specimens, OfThickSheetsFailWithinTheRun) {
+  const TemporaryCase directory(bar_case());
+  ASSERT_EQ(made(directory, "lap_joint", {"--set", "thickness=3.2 mm"}).status, 0);
+  ASSERT_EQ(run({"run", (directory.path() / "new").string(), "--quiet"}).status, 0);
+  const std::vector<double> force =
+      read_csv(directory.path() / "new/results/force_displacement.csv").column("force_x_N");
+  EXPECT_GT(std::ranges::max(force), 10e3);  // 11.29 kN of shear strength times overlap and width
+  EXPECT_LT(force.back(), 0.5 * std::ranges::max(force));
+}
+
 // Apparent modulus K I2(s)/I0(s) + E of a thin layer, s = (3 mu/K)^(1/2) R/H, without the free rim: 25.51 MPa by hand,
 // of which elements have 24.86.
 TEST(Specimens, AreAsStiffAsBondedDiscs) {
