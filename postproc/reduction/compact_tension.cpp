@@ -9,7 +9,7 @@
 namespace pfdm {
 namespace {
 
-constexpr double longest_compact_crack = 0.975;  // over W
+constexpr double shortest_compact_crack = 0.2, longest_compact_crack = 0.975;  // over W, of the compliance
 
 /// f(a/W) of a compact specimen, ASTM E399 annex A4: within 0.5 % for 0.2 <= a/W < 1 (Srawley, Int. J. Fract. 12 (1976)
 /// 475).
@@ -25,9 +25,9 @@ double compact_compliance(double alpha) {
   return square((1.0 + alpha) / (1.0 - alpha)) * rest;
 }
 
-/// a/W of a compliance E' B C, by bisection; 0.975 where it is larger.
+/// a/W of a compliance E' B C, by bisection; an end of the range where it is outside.
 double compact_crack(double compliance) {
-  double low = 0.2, high = longest_compact_crack;
+  double low = shortest_compact_crack, high = longest_compact_crack;
   for (int i = 0; i < 60; ++i) {
     const double middle = 0.5 * (low + high);
     (compact_compliance(middle) < compliance ? low : high) = middle;
@@ -39,6 +39,14 @@ double compact_crack(double compliance) {
 double compact_modulus(const CalibrationData& data) {
   const TestDimensions& s = data.specimen;
   return compact_compliance(s.crack_length / s.depth) / (s.width * data.straight.compliance);
+}
+
+/// "", or why the initial compliance gives no modulus.
+std::string missing_for_compliance(const TestDimensions& s) {
+  const double alpha = s.crack_length / s.depth;
+  if (alpha >= shortest_compact_crack && alpha <= longest_compact_crack) return "";
+  return fmt::format("needs a crack_length between {:g} and {:g} of depth for the compliance; it is {:.3g} of it",
+                     shortest_compact_crack, longest_compact_crack, alpha);
 }
 
 /// "", or which cracks are too short for f.
@@ -63,7 +71,8 @@ auto compact_intensity(const TestDimensions& s) {
 CalibratedMethod compact_stress_intensity(const CalibrationData& data) {
   const TestDimensions& s = data.specimen;
   const bool by_compliance = std::isnan(s.young_modulus);
-  const std::string missing = by_compliance ? "" : missing_dimensions({{"poisson_ratio", s.poisson_ratio}});
+  const std::string missing =
+      by_compliance ? missing_for_compliance(s) : missing_dimensions({{"poisson_ratio", s.poisson_ratio}});
   if (!missing.empty()) return {.missing = missing};
   const double compliance =
       by_compliance ? 1.0 / compact_modulus(data) : (1.0 - square(s.poisson_ratio)) / s.young_modulus;
@@ -80,15 +89,20 @@ CalibratedMethod compact_stress_intensity(const CalibrationData& data) {
 
 CalibratedMethod compact_equivalent_crack(const CalibrationData& data) {
   const TestDimensions& s = data.specimen;
+  const std::string missing = missing_for_compliance(s);
+  if (!missing.empty()) return {.missing = missing};
   const double modulus = compact_modulus(data), W = s.depth;
-  const double share = std::isnan(s.poisson_ratio) ? 1.0 : 1.0 - square(s.poisson_ratio);
+  const ReductionConstant constant =
+      std::isnan(s.poisson_ratio) ? ReductionConstant{"E_plane_strain", "Pa", modulus}
+                                  : ReductionConstant{"E_compliance", "Pa", (1.0 - square(s.poisson_ratio)) * modulus};
   return {.at =
               [=, b = s.width, intensity = compact_intensity(s)](double P, double d, double) {
                 const double a = W * compact_crack(d / P * modulus * b);
-                if (a >= longest_compact_crack * W) return Reduced{not_given, a};
+                const bool is_inside = a > (1.0 + 1e-9) * shortest_compact_crack * W && a < longest_compact_crack * W;
+                if (!is_inside) return Reduced{not_given, a};
                 return Reduced{square(intensity(P, a)) / modulus, a};
               },
-          .constants = {{"E_compliance", "Pa", share * modulus}}};
+          .constants = {constant}};
 }
 
 constexpr ReductionMethod compact_methods[] = {

@@ -93,22 +93,48 @@ TEST(EndNotchedFlexure, LeavesOutWhatIsNearTheNose) {
   EXPECT_NEAR(points.back().found.crack_length, 0.95 * L, 0.5e-3);
 }
 
-// C(a) whose derivative is the sum of both modes of the standard.
-TEST(MixedModeBending, IsTheEnergyThatTheComplianceReleases) {
+/// C(a) whose derivative is the sum of both modes of the standard; a lever of 43.7 mm.
+SyntheticTest levered_test() {
   const double chi = root_rotation(E, E3, G13), c = 43.7e-3;
-  const auto compliance = [=](double a) {
-    return (8.0 * std::pow(a + chi * h, 3) * std::pow(3 * c - L, 2) +
-            (6.0 * std::pow(a + 0.42 * chi * h, 3) + 4.0 * L * L * L) * std::pow(c + L, 2)) /
-           (16.0 * L * L * b * h * h * h * E);
-  };
+  return {[=](double a) {
+            return (8.0 * std::pow(a + chi * h, 3) * std::pow(3 * c - L, 2) +
+                    (6.0 * std::pow(a + 0.42 * chi * h, 3) + 4.0 * L * L * L) * std::pow(c + L, 2)) /
+                   (16.0 * L * L * b * h * h * h * E);
+          },
+          b, Gc};
+}
+
+TestDimensions with_lever() {
   TestDimensions lever = laminate();
-  lever.lever = c;
+  lever.lever = 43.7e-3;
   lever.crack_length = 25e-3;
-  lever.young_modulus = E;
-  const SyntheticTest test{compliance, b, Gc};
-  const ReducedTest found = reduced(2, test.record(25e-3, 40e-3), lever);
-  expect_toughness(by(found, "beam_theory"), Gc, 1e-6);
-  EXPECT_NEAR(by(found, "beam_theory").constants[0].value, E, 1e-6 * E);
+  return lever;
+}
+
+TEST(MixedModeBending, IsTheEnergyThatTheComplianceReleases) {
+  TestDimensions lever = with_lever();
+  for (const double given : {E, not_given}) {  // without it chi is that of E_1f
+    lever.young_modulus = given;
+    const ReducedTest found = reduced(2, levered_test().record(25e-3, 40e-3), lever);
+    expect_toughness(by(found, "beam_theory"), Gc, 1e-6);
+    EXPECT_NEAR(by(found, "beam_theory").constants[0].value, E, 1e-6 * E);
+    EXPECT_THAT(found.remarks, testing::Not(testing::Contains(testing::HasSubstr("pass the middle"))));
+  }
+}
+
+TEST(MixedModeBending, FollowsTheCrackByItsCompliance) {
+  const TestRecord record = levered_test().record(25e-3, 49e-3);
+  const ReducedTest found = reduced(2, record, with_lever());
+  const ReducedByMethod& equivalent = by(found, "equivalent_crack");
+  expect_toughness(equivalent, Gc, 1e-6);
+  for (const ReducedPoint& p : equivalent.points)
+    EXPECT_NEAR(p.found.crack_length, record.crack_length[p.row], 1e-6 * L);
+  EXPECT_NEAR(equivalent.points.back().found.crack_length, 0.95 * L, 0.65e-3);  // rows are 0.6 mm apart
+}
+
+TEST(MixedModeBending, SaysThatTheCrackPassesTheMiddle) {
+  EXPECT_THAT(reduced(2, levered_test().record(25e-3, 52e-3), with_lever()).remarks,
+              testing::Contains(testing::HasSubstr("up to 52 mm pass the middle at 50 mm")));
 }
 
 // f(a/W) as E399 tabulates it: 8.34, 9.66 and 11.36 at 0.45, 0.50 and 0.55.
@@ -152,6 +178,20 @@ TEST(CompactTension, FollowsTheCrackByItsCompliance) {
     if (!std::isnan(record.crack_length[p.row])) {
       EXPECT_NEAR(p.found.crack_length, record.crack_length[p.row], 1e-6 * W);
     }
+}
+
+// E' alone is known without nu; the compliance's formula holds from a/W = 0.2 on.
+TEST(CompactTension, NamesTheModulusThatItKnows) {
+  const double W = 40e-3, B = 20e-3, plane = 3.4e9;
+  const SyntheticTest test{[=](double a) { return compact_compliance(a / W) / (plane * B); }, B, Gc};
+  TestDimensions compact{.width = B, .crack_length = 20e-3, .depth = W};
+  const ReducedTest found = reduced(3, test.record(20e-3, 28e-3), compact);
+  EXPECT_EQ(by(found, "equivalent_crack").constants[0].name, "E_plane_strain");
+  EXPECT_NEAR(by(found, "equivalent_crack").constants[0].value, plane, 1e-6 * plane);
+  compact.crack_length = 6e-3;
+  const ReducedTest shorter = reduced(3, test.record(6e-3, 8e-3), compact);
+  for (const char* method : {"equivalent_crack", "stress_intensity"})
+    EXPECT_THAT(by(shorter, method).missing, testing::HasSubstr("between 0.2 and 0.975 of depth"));
 }
 
 TEST(Reductions, SayWhatTheyLack) {
