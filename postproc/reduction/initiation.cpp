@@ -54,8 +54,7 @@ InitiationPoint at_row(const TestRecord& record, std::size_t row) {
 
 StraightPart straight_part(const TestRecord& record) {
   const auto top = std::ranges::max_element(record.force);
-  if (top == record.force.end() || !(*top > 0.0))
-    throw InputError("data reduction: no force of the record is positive");
+  if (top == record.force.end() || !(*top > 0.0)) throw InputError("no force of the record is positive");
   StraightPart straight{.greatest_force = *top,
                         .row_of_greatest = static_cast<std::size_t>(top - record.force.begin())};
   const std::size_t first = first_row_with(record, straight_from * *top);
@@ -66,10 +65,10 @@ StraightPart straight_part(const TestRecord& record) {
   };
   const FittedLine line = fitted_line(part(record.displacement), part(record.force));
   if (straight.end < first + 3 || !(line.slope > 0.0))
-    throw InputError(fmt::format(
-        "data reduction: {} rows lie between 10 and 50 % of the greatest force; the initial compliance needs "
-        "three that rise",
-        straight.end - first));
+    throw InputError(
+        fmt::format("{} rows lie between 10 and 50 % of the greatest force; the initial compliance needs "
+                    "three that rise",
+                    straight.end - first));
   straight.compliance = 1.0 / line.slope;
   straight.origin = -line.intercept / line.slope;
   return straight;

@@ -15,6 +15,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <sstream>
 
 namespace pfdm {
@@ -23,12 +24,13 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double noticeable_origin = 0.01;  // of the displacement at the greatest force
+constexpr double least_share = 0.1;         // of the greatest force: the specimen still carries
 
 /// What the records say, before the case is written.
 struct RecordFindings {
   std::vector<StraightPart> straight{};
   std::vector<ReducedTest> reduced{};  ///< where the specimen has data reduction
-  double reach = 0.0;                  ///< largest displacement [m]
+  double reach = 0.0;                  ///< largest displacement of the tests [m]
 };
 
 std::string experiment_text(const std::vector<MeasuredRecord>& records, const std::string& straight_keys,
@@ -49,22 +51,37 @@ double last_reduced(const std::vector<ReducedTest>& tests) {
   return last;
 }
 
-RecordFindings findings_of(const std::string& text, bool has_reduction) {
+/// Where the test is over [m]: behind it the specimen has failed.
+double last_carried(const TestRecord& record, const StraightPart& straight) {
+  std::size_t last = straight.row_of_greatest;
+  for (std::size_t i = last; i < record.n_rows(); ++i)
+    if (record.force[i] >= least_share * straight.greatest_force) last = i;
+  return record.displacement[last];
+}
+
+StraightPart straight_part_of(const TestRecord& record, const fs::path& file) {
+  try {
+    return straight_part(record);
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{}: {}", file.string(), error.what()));
+  }
+}
+
+RecordFindings findings_of(const std::string& text, const std::vector<fs::path>& files, bool has_reduction) {
   const Config config(text, "the record");
   RecordFindings found;
   std::vector<TestRecord> records;
-  if (has_reduction) {
-    const ReductionSettings settings = *read_reduction(config.root(), "/");
-    records = settings.records;
-    found.reduced = reduced_tests(settings);
-  } else {
+  const auto settings = has_reduction ? read_reduction(config.root(), "/") : std::nullopt;
+  if (settings)
+    records = settings->records;
+  else
     for (const SampledCurve& curve : specimen_curves(*read_experiment(config.root(), "/")))
       records.push_back({.displacement = curve.x, .force = curve.y});
+  for (std::size_t i = 0; i < records.size(); ++i) {
+    found.straight.push_back(straight_part_of(records[i], files[i]));
+    found.reach = std::max(found.reach, last_carried(records[i], found.straight.back()));
   }
-  for (const TestRecord& record : records) {
-    found.straight.push_back(straight_part(record));
-    found.reach = std::max(found.reach, record.displacement.back());
-  }
+  if (settings) found.reduced = reduced_tests(*settings);
   if (const double last = last_reduced(found.reduced); last > 0.0) found.reach = last;
   return found;
 }
@@ -163,7 +180,8 @@ Measured measured(std::vector<MeasuredRecord>& records, const SpecimenRequest& r
                   bool takes_toe) {
   std::string keys = "stiffness_between = [\"0 m\", \"1 m\"]\n";
   const auto read = [&] {
-    return findings_of(experiment_text(in_place(records, request), keys, reduction), !reduction.empty());
+    return findings_of(experiment_text(in_place(records, request), keys, reduction), request.records,
+                       !reduction.empty());
   };
   RecordFindings found = read();
   for (std::size_t i = 0; i < records.size(); ++i) add_toe(records[i], found.straight[i], takes_toe);

@@ -32,20 +32,25 @@ std::string straight_rows(const std::string& head, int n, double slack = 0.0) {
 
 struct Made {
   Outcome outcome;
-  std::string text;  ///< case.toml, if there is one
+  std::string text;       ///< case.toml, if there is one
+  std::string warning{};  ///< of its check
 };
 
 /// The case of records with these contents.
-Made made(const std::vector<std::string>& records) {
+Made made(const std::vector<std::string>& records, const std::string& specimen = dcb,
+          const std::vector<std::string>& set = {}) {
   const TemporaryCase directory(bar_case());
-  std::vector<std::string> words{"init", (directory.path() / "new").string(), "--specimen", dcb};
+  std::vector<std::string> words{"init", (directory.path() / "new").string(), "--specimen", specimen};
+  for (const std::string& value : set) words.insert(words.end(), {"--set", value});
   for (std::size_t i = 0; i < records.size(); ++i) {
     const std::string name = fmt::format("record{}.csv", i + 1);
     directory.write(name, records[i]);
     words.insert(words.end(), {"--data", (directory.path() / name).string()});
   }
   const Outcome outcome = run(words);
-  return {outcome, content_of(directory.path() / "new/case.toml")};
+  if (outcome.status != 0) return {outcome, content_of(directory.path() / "new/case.toml")};
+  return {outcome, content_of(directory.path() / "new/case.toml"),
+          run({"check", (directory.path() / "new").string()}).err};
 }
 
 void expect_refused(const std::string& head, int n, const std::string& message) {
@@ -96,6 +101,64 @@ TEST(MachineRecords, HaveEachItsOwnToe) {
   const Made turned = made({straight_rows("Opening [mm];Load [N]", 2, 0.5), straight_rows("Opening [mm];Load [N]", 2)});
   EXPECT_NE(turned.text.find(toe), std::string::npos);
   EXPECT_EQ(turned.text.substr(turned.text.find("name = \"record2\"")).find("toe = "), std::string::npos);
+}
+
+/// A lap joint that stiffens from 20 to 60 kN/mm, and fails at 8 kN and 0.2 mm.
+std::string stiffening_rows() {
+  std::string text = "displacement [mm],load [N]\n";
+  for (int i = 0; i <= 100; ++i) text += fmt::format("{},{}\n", 0.002 * i, 40.0 * i + 0.4 * i * i);
+  return text;
+}
+
+TEST(MachineRecords, OfWhatStiffensKeepTheirOrigin) {
+  const Made result = made({stiffening_rows()}, "lap_joint");
+  ASSERT_EQ(result.outcome.status, 0) << result.outcome.err;
+  EXPECT_THAT(result.outcome.out, HasSubstr("the straight part meets zero force at "));
+  EXPECT_THAT(result.text, Not(HasSubstr("\ntoe = ")));
+  EXPECT_THAT(result.text, HasSubstr("\n# toe = ["));
+  EXPECT_EQ(result.warning, "");
+}
+
+TEST(MachineRecords, AreFollowedUntilTheSpecimenHasFailed) {
+  std::string text = stiffening_rows();
+  for (int i = 1; i <= 50; ++i) text += fmt::format("{},20\n", 0.2 + 0.05 * i);
+  const Made result = made({text}, "lap_joint");
+  ASSERT_EQ(result.outcome.status, 0) << result.outcome.err;
+  EXPECT_THAT(result.text, HasSubstr("displacement = [\"0.202 mm\""));
+}
+
+TEST(MachineRecords, OfFewRowsAreNamed) {
+  const std::string few = "displacement [mm],load [N]\n0,0\n1,20\n2,100\n";
+  for (const std::string specimen : {"lap_joint", "double_cantilever_beam"}) {
+    const Outcome outcome = made({few}, specimen).outcome;
+    EXPECT_EQ(outcome.status, 2);
+    EXPECT_THAT(outcome.err, HasSubstr("record1.csv: 1 rows lie between 10 and 50 %"));
+    EXPECT_THAT(outcome.err, Not(HasSubstr("data reduction")));
+  }
+}
+
+// ASTM D6671 with E = 61 GPa, of which chi = 1.3178 by hand (E33 = 9 GPa, G13 = 5 GPa); 3 kJ/m^2, a from 30 to 49 mm.
+TEST(MachineRecords, OfMixedModesTellToughnessAndModulus) {
+  const double E = 61e9, b = 25e-3, h = 1.5e-3, chi = 1.3178, L = 50e-3, c = 42e-3,
+               unit = 16 * L * L * b * h * h * h * E;
+  const double opened = std::pow(3 * c - L, 2), bent = std::pow(c + L, 2);
+  std::string text = "displacement [mm];load [N]\n";
+  double end = 0.0;
+  const auto add = [&](double a, double share) {
+    const double A = a + chi * h, B = a + 0.42 * chi * h;
+    const double P = share * std::sqrt(3000.0 * 2 * b * unit / (24 * A * A * opened + 18 * B * B * bent));
+    const double d = P * (8 * A * A * A * opened + (6 * B * B * B + 4 * L * L * L) * bent) / unit;
+    text += fmt::format("{:.6f};{:.4f}\n", 1e3 * d, P);
+    if (a < 0.95 * L) end = 1e3 * d;
+  };
+  for (int i = 0; i < 40; ++i) add(30e-3, i / 40.0);
+  for (int i = 0; i <= 95; ++i) add((30 + 0.2 * i) * 1e-3, 1.0);
+  const Made result = made({text}, "mixed_mode_bending");
+  ASSERT_EQ(result.outcome.status, 0) << result.outcome.err;
+  EXPECT_THAT(result.outcome.out, HasSubstr("toughness: 3 kJ/m^2 by data reduction"));
+  EXPECT_THAT(result.outcome.out, HasSubstr("young_modulus: 61 GPa by data reduction"));
+  EXPECT_THAT(result.text, HasSubstr(fmt::format("displacement = [\"free\", \"{:.3f}", 1.01 * end)));
+  EXPECT_EQ(result.warning, "");
 }
 
 TEST(MachineRecords, NeedTheNameOfTheSpecimen) {

@@ -187,21 +187,6 @@ TEST(Specimens, TurnShiftAndNameRecords) {
   EXPECT_EQ(run({"check", (directory.path() / "new").string()}).err, "");
 }
 
-// A record that stiffens from 20 to 40 kN/mm, from its origin on.
-TEST(Specimens, LeaveTheOriginOfWhatStiffens) {
-  const TemporaryCase directory(bar_case());
-  std::string text = "displacement [mm],load [N]\n";
-  for (int i = 0; i <= 100; ++i) text += fmt::format("{},{}\n", 0.002 * i, 40.0 * i + 0.4 * i * i);
-  directory.write("stiffening.csv", text);
-  const Outcome outcome = made(directory, "lap_joint", {"--data", (directory.path() / "stiffening.csv").string()});
-  ASSERT_EQ(outcome.status, 0) << outcome.err;
-  EXPECT_THAT(outcome.out, HasSubstr("the straight part meets zero force at "));
-  const std::string made_text = content_of(directory.path() / "new/case.toml");
-  EXPECT_THAT(made_text, Not(HasSubstr("\ntoe = ")));
-  EXPECT_THAT(made_text, HasSubstr("\n# toe = ["));
-  EXPECT_EQ(run({"check", (directory.path() / "new").string()}).err, "");
-}
-
 TEST(Specimens, TakeThePartOfTheForceThatIsComputed) {
   const TemporaryCase directory(bar_case());
   std::string text = "displacement [mm],load [N]\n";

@@ -160,9 +160,14 @@ std::optional<ReductionSettings> read_reduction(const ConfigTable& root, const s
 
 std::vector<ReducedTest> reduced_tests(const ReductionSettings& settings) {
   std::vector<ReducedTest> tests;
-  for (std::size_t i = 0; i < settings.records.size(); ++i)
-    tests.push_back(settings.where.in_context(
-        [&] { return reduced_test(*settings.specimen, settings.records[i], settings.dimensions, settings.names[i]); }));
+  for (std::size_t i = 0; i < settings.records.size(); ++i) {
+    const std::string& name = settings.names[i];
+    try {
+      tests.push_back(reduced_test(*settings.specimen, settings.records[i], settings.dimensions, name));
+    } catch (const InputError& error) {
+      throw settings.where.error(fmt::format("data reduction of \"{}\": {}", name, error.what()));
+    }
+  }
   return tests;
 }
 
