@@ -63,7 +63,7 @@ std::string replacement(const std::string& piece, const SpecimenWords& words) {
   const double value = evaluated(std::string(trimmed(std::string_view(piece).substr(0, colon))), words.numbers);
   std::string unit(trimmed(std::string_view(piece).substr(colon + 3)));
   if (unit == "count") return fmt::format("{}", std::llround(value));
-  if (unit == "1") return fmt::format("{:.6g}", value);
+  if (unit == "1") return fmt::format("{:.9g}", value);
   const bool bare = unit.starts_with("in "), rounded = unit.starts_with("about ");
   if (bare || rounded) unit = unit.substr(unit.find(' ') + 1);
   const double factor = unit_in_si(unit, dimension_of("1 " + unit));
