@@ -125,6 +125,7 @@ TEST(MachineRecords, AreFollowedUntilTheSpecimenHasFailed) {
   const Made result = made({text}, "lap_joint");
   ASSERT_EQ(result.outcome.status, 0) << result.outcome.err;
   EXPECT_THAT(result.text, HasSubstr("displacement = [\"0.202 mm\""));
+  EXPECT_THAT(made({}, "lap_joint").text, HasSubstr("initial_increment = 0.00909090909\n"));  // 110 without a record
 }
 
 TEST(MachineRecords, OfFewRowsAreNamed) {
@@ -159,6 +160,15 @@ TEST(MachineRecords, OfMixedModesTellToughnessAndModulus) {
   EXPECT_THAT(result.outcome.out, HasSubstr("young_modulus: 61 GPa by data reduction"));
   EXPECT_THAT(result.text, HasSubstr(fmt::format("displacement = [\"free\", \"{:.3f}", 1.01 * end)));
   EXPECT_EQ(result.warning, "");
+}
+
+// Opened by 0.7 of (Gc W/E')^(1/2), where c/f of any crack is more: 80 steps, as without growth.
+TEST(MachineRecords, ThatBreakOffEarlyLetNoCrackGrow) {
+  std::string text = "displacement [mm],load [N]\n";
+  for (int i = 0; i <= 40; ++i) text += fmt::format("{},{}\n", 0.0025 * i, 4.625 * i);
+  const Made result = made({text}, "compact_tension", {"toughness=2 kJ/m^2", "strength=80 MPa"});
+  ASSERT_EQ(result.outcome.status, 0) << result.outcome.err;
+  EXPECT_THAT(result.text, HasSubstr("initial_increment = 0.0125\n"));
 }
 
 TEST(MachineRecords, NeedTheNameOfTheSpecimen) {

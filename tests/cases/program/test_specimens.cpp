@@ -125,6 +125,7 @@ TEST(Specimens, RefuseWhatIsWrong) {
   expect_refused(disc, {"--set", "diameter=4 mm"}, "must be 3 to 60 times the thickness");
   expect_refused(disc, {"--set", "bulk_modulus=10 GPa"}, "0.47 to 0.4999 are rubbers");
   expect_refused(disc, {"--set", "strength=200 MPa"}, "would open at once");
+  expect_refused(disc, {"--set", "diameter=6 mm", "--set", "strength=3 MPa"}, "\"3 MPa\" is not reached");
   expect_refused(dcb, {"--data", "no_such_file.csv"}, "no_such_file.csv");
   expect_refused(dcb, {"--set", "force_column=F"}, "there is no record whose column it is");
 }
