@@ -18,22 +18,21 @@ namespace {
 constexpr double points_per_decade = 10.0;
 constexpr double step = 1e-5;  // of the differences, relative
 
-/// Logarithms of storage and loss modulus in tension, then in shear.
+/// Storage and loss modulus in tension, then in shear [Pa]; the loss is 0 without branches.
 using Moduli = std::array<double, 4>;
 
 Moduli moduli_at(const PronyLaw& law, double angular_frequency) {
   const auto in_tension = complex_modulus(young_modulus(law), angular_frequency),
              in_shear = complex_modulus(shear_modulus(law), angular_frequency);
-  return {std::log(in_tension.real()), std::log(in_tension.imag()), std::log(in_shear.real()),
-          std::log(in_shear.imag())};
+  return {in_tension.real(), in_tension.imag(), in_shear.real(), in_shear.imag()};
 }
 
 std::vector<double> frequencies_in(const TimeWindow& window) {
   const double lowest = 1.0 / (2.0 * std::numbers::pi * window.longest),
                decades = std::log10(window.longest / window.shortest);
   const auto n = static_cast<int>(std::ceil(points_per_decade * decades));
-  std::vector<double> frequencies;
-  for (int i = 0; i <= n; ++i) frequencies.push_back(lowest * std::pow(10.0, decades * i / n));
+  std::vector<double> frequencies{lowest};
+  for (int i = 1; i <= n; ++i) frequencies.push_back(lowest * std::pow(10.0, decades * i / n));
   return frequencies;
 }
 
@@ -59,7 +58,7 @@ std::optional<std::vector<Reach>> reaches_of(const FitFindings& findings) {
   return reaches;
 }
 
-/// Half the widths of the intervals of the logarithms.
+/// Half the widths of the intervals of the logarithms; 0 of a modulus that is 0.
 Moduli widths_at(const ViscoelasticFit& fit, const std::vector<Reach>& reaches, const Eigen::MatrixXd& correlation,
                  double angular_frequency) {
   Eigen::MatrixXd effects(4, std::ssize(reaches));
@@ -74,7 +73,8 @@ Moduli widths_at(const ViscoelasticFit& fit, const std::vector<Reach>& reaches, 
     const Moduli above = beside(1.0), below = beside(-1.0);
     for (std::size_t m = 0; m < above.size(); ++m)
       effects(static_cast<Eigen::Index>(m), static_cast<Eigen::Index>(j)) =
-          (above[m] - below[m]) / reaches[j].distance() * reaches[j].by;
+          above[m] > 0.0 && below[m] > 0.0 ? std::log(above[m] / below[m]) / reaches[j].distance() * reaches[j].by
+                                           : 0.0;
   }
   const Eigen::VectorXd squares = (effects * correlation).cwiseProduct(effects).rowwise().sum();
   Moduli widths{};
@@ -96,9 +96,9 @@ CsvTable modulus_band(const ViscoelasticFit& fit, const FitFindings& findings, c
     const Moduli at = moduli_at(fit.law, w);
     const Moduli widths = reaches ? widths_at(fit, *reaches, findings.correlation, w) : Moduli{};
     for (std::size_t m = 0; m < at.size(); ++m) {
-      estimate[m].push_back(std::exp(at[m]));
-      lower[m].push_back(std::exp(at[m] - widths[m]));
-      upper[m].push_back(std::exp(at[m] + widths[m]));
+      estimate[m].push_back(at[m]);
+      lower[m].push_back(at[m] * std::exp(-widths[m]));
+      upper[m].push_back(at[m] * std::exp(widths[m]));
     }
   }
   CsvTable table;

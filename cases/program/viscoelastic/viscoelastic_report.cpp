@@ -56,13 +56,15 @@ DisplayUnit unit_of_columns(const CsvTable& table, const Columns& columns, std::
   return common_unit(values, si_unit);
 }
 
-/// Adds the columns over another one to the chart: points if they are measured, and none that an axis cannot show.
+/// Adds the columns over another one to the chart: points if they are measured, and none that an axis cannot show, as
+/// of a loss modulus that is zero.
 void add_series(const CsvTable& table, const std::string& along, const Columns& columns, const DisplayUnit& unit,
                 Chart& chart) {
   for (const auto& [column, label] : columns) {
     std::vector<double> x = table.column(along), y = in_unit(table.column(column), unit);
     if (chart.x.logarithmic) keep_positive(x, y);
     if (chart.y.logarithmic) keep_positive(y, x);  // what noise has made negative
+    if (x.empty()) continue;
     chart.series.push_back({.label = label,
                             .x = x,
                             .y = y,
@@ -140,6 +142,7 @@ Chart moduli_of_fit(const CsvTable& table, const std::string& which, const std::
   const DisplayUnit unit = unit_of_columns(table, columns, "Pa");
   for (int k = 0; is_known && k < 2; ++k) {
     const std::string& column = columns[static_cast<std::size_t>(k)].first;
+    if (!(std::ranges::min(table.column("lower_" + column)) > 0.0)) continue;
     chart.series.push_back({.label = "",
                             .x = table.column("frequency_Hz"),
                             .y = in_unit(table.column("lower_" + column), unit),

@@ -74,6 +74,65 @@ TEST(ViscoelasticBand, IsWithheldFromAFitThatIsNotSound) {
   EXPECT_EQ(band.names.size(), 5u);  // frequency and moduli
 }
 
+/// Of a fit, of which and of a run a report is made too.
+CsvTable band_of_elastic_fit(const TemporaryCase& place, const std::string& data) {
+  place.write("dma.csv", data);
+  const Outcome fitted = run({"fit", place.path().string()});
+  EXPECT_EQ(fitted.status, 0) << fitted.err;
+  const CsvTable band = read_csv(place.results() / "fit_complex_modulus.csv");
+  for (const std::string& name : band.names)
+    for (const double value : band.column(name)) EXPECT_TRUE(std::isfinite(value)) << name;
+  EXPECT_EQ(run({"run", place.path().string()}).status, 0);
+  const Outcome report = run({"report", place.path().string()});
+  EXPECT_EQ(report.status, 0) << report.err;
+  return band;
+}
+
+std::string elastic_fit(const std::string& material, const std::string& quantity, const std::string& fit) {
+  return "kind = \"viscoelastic\"\ntitle = \"rubber\"\n[material]\nyoung_modulus = \"1 MPa\"\n" + material +
+         "\n[frequency_sweep]\nfrom = \"1 Hz\"\nto = \"10 Hz\"\n[fit]\n" + fit +
+         "\n[[fit.experiments]]\nname = \"DMA\"\ncsv = \"dma.csv\"\ndeformation = \"" + quantity +
+         "\"\nfrequency = { column = \"f\" }\nstorage_modulus = { column = \"E\", unit = \"MPa\", relative_noise = "
+         "0.01 }\n";
+}
+
+const std::string nearly_two_megapascals =
+    "f,E\nHz,MPa\n0.1,2.01\n0.3,1.98\n1,2.03\n3,2.00\n10,1.99\n30,2.02\n100,1.97\n";
+
+TEST(ViscoelasticBand, WithoutBranchesHasNoLoss) {
+  const TemporaryCase place(elastic_fit("poisson_ratio = 0.4", "tension", "estimate = [\"young_modulus\"]"));
+  const CsvTable band = band_of_elastic_fit(place, nearly_two_megapascals);
+  EXPECT_EQ(band.names.size(), 13u);
+  for (std::size_t i = 0; i < band.n_rows(); ++i) {
+    EXPECT_EQ(band.column("young_loss_modulus_Pa")[i], 0.0);
+    EXPECT_EQ(band.column("lower_young_loss_modulus_Pa")[i], 0.0);
+    EXPECT_EQ(band.column("upper_young_loss_modulus_Pa")[i], 0.0);
+    EXPECT_LT(band.column("lower_young_storage_modulus_Pa")[i], 2e6);
+    EXPECT_GT(band.column("upper_young_storage_modulus_Pa")[i], 2e6);
+  }
+}
+
+TEST(ViscoelasticBand, OfBulkBranchesAloneHasNoLossInShear) {
+  const TemporaryCase place(
+      elastic_fit("poisson_ratio = 0.3\nbulk_branches = [{ modulus = \"10 kPa\", time = \"50 ms\" }]", "tension",
+                  "estimate = [\"young_modulus\"]"));
+  const CsvTable band = band_of_elastic_fit(place, nearly_two_megapascals);
+  for (std::size_t i = 0; i < band.n_rows(); ++i) {
+    EXPECT_GT(band.column("young_loss_modulus_Pa")[i], 0.0);
+    EXPECT_EQ(band.column("upper_shear_loss_modulus_Pa")[i], 0.0);
+  }
+}
+
+TEST(ViscoelasticBand, OfOneFrequencyHasOneRow) {
+  const TemporaryCase place(
+      elastic_fit("poisson_ratio = 0.4\nshear_branches = [{ modulus = \"1 MPa\", time = \"0.1 s\" }]", "tension",
+                  "estimate = [\"young_modulus\"]"));
+  const CsvTable band = band_of_elastic_fit(place, "f,E\nHz,MPa\n2,2.01\n2,1.99\n2,2.02\n2,1.98\n2,2.00\n");
+  ASSERT_EQ(band.n_rows(), 1u);
+  EXPECT_NEAR(band.column("frequency_Hz")[0], 2.0, 1e-12);
+  EXPECT_GT(band.column("young_loss_modulus_Pa")[0], 0.0);
+}
+
 /// A file of the shipped case.
 CsvTable shipped_table(const std::string& file) { return read_csv(fs::path(PFDM_CASES_DIR) / "binder_rates" / file); }
 
