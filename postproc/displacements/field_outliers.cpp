@@ -3,6 +3,7 @@
 #include "mesh/bounding_box.h"
 
 #include <Eigen/Cholesky>
+#include <Eigen/QR>
 
 #include <algorithm>
 #include <cmath>
@@ -16,6 +17,7 @@ constexpr double astray = 6.0;         // standard deviations
 constexpr double normal_mad = 1.4826;  // standard deviation over median of the magnitudes, of normal noise
 constexpr std::size_t fewest_around = 6;
 constexpr int passes = 3;
+constexpr double side_of_surface = 3.5;  // spacings
 
 using Neighbours = std::vector<std::vector<std::size_t>>;
 
@@ -71,7 +73,37 @@ std::vector<Vector> from_planes(const RecordedFrame& frame, const Neighbours& ar
   return residuals;
 }
 
+/// Sum of the squares of what the surface of second degree through the points leaves, over as many degrees of freedom.
+std::pair<double, double> left_by_surface(const RecordedFrame& frame, const std::vector<std::size_t>& members,
+                                          double spacing, int n_components) {
+  const auto n = static_cast<Eigen::Index>(members.size());
+  Eigen::MatrixXd basis(n, 6), u(n, 3);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const std::size_t member = members[static_cast<std::size_t>(i)];
+    const Vector d = (frame.points[member] - frame.points[members.front()]) / spacing;
+    basis.row(i) << 1.0, d[0], d[1], d[0] * d[0], d[0] * d[1], d[1] * d[1];
+    u.row(i) = (frame.u[member] - frame.u[members.front()]).transpose();
+  }
+  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(basis);
+  return {(u - basis * qr.solve(u)).squaredNorm(), static_cast<double>((n - qr.rank()) * n_components)};
+}
+
 }  // namespace
+
+double noise_of(const RecordedFrame& frame, double spacing, int n_components) {
+  if (!(spacing > 0.0)) return 0.0;
+  std::map<Square, std::vector<std::size_t>> squares;
+  for (std::size_t i = 0; i < frame.points.size(); ++i)
+    squares[square_of(frame.points[i], side_of_surface * spacing)].push_back(i);
+  std::vector<double> variances;
+  for (const auto& [square, members] : squares) {
+    const auto [left, freedom] = left_by_surface(frame, members, spacing, n_components);
+    if (!(freedom > 0.0)) continue;
+    const double median_over_mean = std::pow(1.0 - 2.0 / (9.0 * freedom), 3);  // of chi^2 (Wilson, Hilferty 1931)
+    variances.push_back(left / (freedom * median_over_mean));
+  }
+  return variances.empty() ? 0.0 : std::sqrt(median(std::move(variances)));
+}
 
 Square square_of(const Vector& p, double side) {
   return {std::lround(std::floor(p[0] / side)), std::lround(std::floor(p[1] / side))};

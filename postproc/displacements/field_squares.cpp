@@ -12,10 +12,24 @@ namespace {
 
 constexpr double most_missing = 0.25;        // of the points of a place
 constexpr std::size_t fewest_of_plane = 4;   // points
-constexpr double no_plane = 2.0;             // times the median scatter about the planes of a frame
+constexpr double normal_of_chance = 3.29;    // which noise exceeds once in 2,000 times
 constexpr double rounding_of_plane = 1e-12;  // of the largest displacement
 
 std::array<double, 3> coordinates(const Vector& p) { return {p[0], p[1], p[2]}; }
+
+std::vector<std::array<double, 3>> sorted(const std::vector<Vector>& points) {
+  std::vector<std::array<double, 3>> result;
+  result.reserve(points.size());
+  for (const Vector& p : points) result.push_back(coordinates(p));
+  std::ranges::sort(result);
+  return result;
+}
+
+/// Which chi^2 seldom exceeds (Wilson, Hilferty, Proc. Natl. Acad. Sci. 17 (1931) 684).
+double most_of_noise(double freedom) {
+  const double share = 2.0 / (9.0 * freedom);
+  return freedom * std::pow(1.0 - share + normal_of_chance * std::sqrt(share), 3);
+}
 
 Vector middle_of(const std::vector<Vector>& points) {
   Vector middle = Vector::Zero();
@@ -34,9 +48,9 @@ bool is_like(const std::vector<Vector>& points, const std::vector<Vector>& commo
 
 }  // namespace
 
-FieldSquares::FieldSquares(const FieldPlane& plane, const std::vector<RecordedFrame>& frames, double side,
+FieldSquares::FieldSquares(const MeasuredField& field, const std::vector<RecordedFrame>& frames, double side,
                            std::vector<FieldPlace>& places)
-    : plane_(plane), side_(side), places_(places) {
+    : field_(field), side_(side), places_(places) {
   if (!(side > 0.0)) return;
   std::map<Square, std::vector<Vector>> seen;  // in the order in which they come
   std::map<Point, std::size_t> n_frames;
@@ -57,14 +71,10 @@ std::map<Square, FieldSquares::Members> FieldSquares::squares_of(const RecordedF
 }
 
 std::size_t FieldSquares::number_of(const std::vector<Vector>& points) {
-  std::vector<Point> key;
-  key.reserve(points.size());
-  for (const Vector& p : points) key.push_back(coordinates(p));
-  std::ranges::sort(key);
-  const auto [found, is_new] = known_.try_emplace(std::move(key), places_.size());
+  const auto [found, is_new] = known_.try_emplace(sorted(points), places_.size());
   if (is_new) {
     FieldPlace& place = places_.emplace_back();
-    for (const Vector& p : points) place.points.push_back(plane_.at(p));
+    for (const Vector& p : points) place.points.push_back(field_.plane.at(p));
   }
   return found->second;
 }
@@ -87,12 +97,10 @@ FieldSquares::Mean FieldSquares::mean_of(const RecordedFrame& frame, const Membe
   normal += 1e-9 * normal.trace() * Eigen::Matrix2d::Identity();  // points along a line have no slope across it
   mean.slopes = normal.ldlt().solve(sums);
   mean.inverse = normal.ldlt().solve(Eigen::Matrix2d::Identity());
-  double squares = 0.0;
   for (const std::size_t i : members) {
     const Eigen::Vector2d d = (frame.points[i] - mean.middle).head<2>();
-    squares += (frame.u[i] - mean.u - mean.slopes.transpose() * d).squaredNorm();
+    mean.squares += (frame.u[i] - mean.u - mean.slopes.transpose() * d).squaredNorm();
   }
-  mean.scatter = std::sqrt(squares / static_cast<double>(members.size() - 3));
   return mean;
 }
 
@@ -100,21 +108,15 @@ FieldFrame FieldSquares::means(const RecordedFrame& frame) {
   FieldFrame data{
       .name = frame.name, .displacement = frame.displacement, .places = {}, .middle = {}, .u = {}, .n_points = {}};
   std::vector<std::pair<Square, Mean>> means;
-  std::vector<double> scatters;
   double largest = 0.0;
   for (const auto& [square, members] : squares_of(frame)) {
     means.emplace_back(square, mean_of(frame, members));
     largest = std::max(largest, means.back().second.u.norm());
-    if (std::isfinite(means.back().second.scatter)) scatters.push_back(means.back().second.scatter);
   }
-  double most_scatter = 0.0;
-  if (!scatters.empty()) {
-    const auto middle = scatters.begin() + std::ssize(scatters) / 2;
-    std::ranges::nth_element(scatters, middle);
-    most_scatter = no_plane * *middle + rounding_of_plane * largest;
-  }
+  const double noise =
+      field_.deviation > 0.0 || side_ == 0.0 ? field_.deviation : noise_of(frame, field_.spacing, field_.n_components);
   for (auto& [square, mean] : means) {
-    data.places.push_back(place_of(square, most_scatter, mean));
+    data.places.push_back(place_of(square, noise, rounding_of_plane * largest, mean));
     data.n_points.push_back(mean.n);
     data.middle.push_back(mean.middle);
     data.u.push_back(mean.u);
@@ -122,25 +124,30 @@ FieldFrame FieldSquares::means(const RecordedFrame& frame) {
   return data;
 }
 
-std::size_t FieldSquares::place_of(const Square& square, double most_scatter, Mean& mean) {
+bool FieldSquares::is_plane(const Mean& mean, double noise, double rounding) const {
+  if (mean.points.size() < fewest_of_plane) return false;
+  const double freedom = static_cast<double>(mean.points.size() - 3) * field_.n_components;
+  return mean.squares <= (noise * noise + rounding * rounding) * most_of_noise(freedom);
+}
+
+std::size_t FieldSquares::place_of(const Square& square, double noise, double rounding, Mean& mean) {
   const auto common = common_.find(square);
-  const std::size_t n_before = places_.size();
-  const bool is_carried =
-      common != common_.end() && mean.scatter <= most_scatter && is_like(mean.points, common->second);
-  if (!is_carried) {
-    const std::size_t number = number_of(mean.points);
-    const bool is_whole = common != common_.end() && common->second.size() == mean.points.size();
-    if (side_ > 0.0 && !is_whole) n_own_ += places_.size() - n_before;
-    return number;
+  if (common == common_.end() || !is_like(mean.points, common->second)) {
+    n_own_ += side_ > 0.0 ? 1 : 0;
+    return number_of(mean.points);
   }
   const Vector middle = middle_of(common->second);
-  if (middle != mean.middle) {
+  if (sorted(mean.points) != sorted(common->second)) {
+    if (!is_plane(mean, noise, rounding)) {
+      ++n_own_;
+      return number_of(mean.points);
+    }
     ++n_carried_;
     const Eigen::Vector2d by = (middle - mean.middle).head<2>();
     mean.u += mean.slopes.transpose() * by;
     mean.n = 1.0 / (1.0 / mean.n + by.dot(mean.inverse * by));  // as known as the plane is there
-    mean.middle = middle;
   }
+  mean.middle = middle;
   return number_of(common->second);
 }
 

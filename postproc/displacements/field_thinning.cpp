@@ -140,7 +140,7 @@ MeasuredField selected_field(const RecordedField& recorded, const FieldSelection
   const double side = side_of_squares(kept, field.spacing, how.most);
   field.pitch = side > 0.0 ? side : field.spacing;
   field.told = told_of(selection, kept, side);
-  FieldSquares squares(field.plane, kept, side, places);
+  FieldSquares squares(field, kept, side, places);
   for (const RecordedFrame& frame : kept) {
     if (frame.points.size() < fewest)
       field.told.push_back(fmt::format("frame {} is left out: it has {} points", frame.name, frame.points.size()));
@@ -156,8 +156,8 @@ MeasuredField selected_field(const RecordedField& recorded, const FieldSelection
                     "through them",
                     squares.n_carried()));
   if (squares.n_own() > 0)
-    field.told.push_back(
-        fmt::format("{} means lack more, or are no plane: each is computed at its own points", squares.n_own()));
+    field.told.push_back(fmt::format(
+        "{} means lack more, or show no plane within the noise: each is computed at its own points", squares.n_own()));
   field.told.insert(field.told.begin(), recorded.told.begin(), recorded.told.end());
   return field;
 }
