@@ -40,7 +40,8 @@ class ScaledModel {
   /// Of the data, then of the priors.
   std::optional<std::vector<double>> residuals(const Eigen::VectorXd& u) const;
   std::optional<Eigen::MatrixXd> jacobian(const Eigen::VectorXd& u) const;
-  /// By differences about u itself, whatever the settings; the latest is kept.
+  /// By differences about u itself, also if the settings share them: central ones, or forward ones where the settings
+  /// say so. The latest is kept.
   std::optional<Eigen::MatrixXd> jacobian_about(const Eigen::VectorXd& u) const;
   /// That of the intervals.
   std::optional<Eigen::MatrixXd> jacobian_at_end(const Eigen::VectorXd& u) const {

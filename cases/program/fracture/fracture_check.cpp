@@ -104,7 +104,7 @@ MeasuredFields fields_of_fit(const FractureProgram& program, const Mesh& mesh, L
     if (!(field.deviation > 0.0) && n_data < fewest_for_noise)
       throw settings.where.error(too_few_for_noise(field.name, n_data));
     log.say(
-        fmt::format("field \"{}\": {} frames from {}, {} places of {} or {:.3g} points, {} components", field.name,
+        fmt::format("field \"{}\": {} frames from {}, {} places of {} or {:.0f} points, {} components", field.name,
                     field.frames.size(),
                     quantities_text({field.frames.front().displacement, field.frames.back().displacement}, "m", " to "),
                     n, quantity_text(field.pitch, "m", 3), field.frames.front().n_points.front(), field.n_components));
