@@ -74,6 +74,20 @@ Eigen::MatrixXd inverse_normal(const ScaledModel& model, const Eigen::MatrixXd& 
   return size.cwiseInverse().asDiagonal() * inverse * size.cwiseInverse().asDiagonal();
 }
 
+/// About u; about the point of the grid where the model has no answer beside u, and a warning.
+std::optional<Eigen::MatrixXd> jacobian_at_end(const ScaledModel& model, const Eigen::VectorXd& u, FitResult& result) {
+  if (auto J = model.jacobian_at_end(u)) return J;
+  const Eigen::VectorXd centre = model.centre_of_differences(u);
+  if (centre == u) return std::nullopt;
+  auto J = model.jacobian(u);
+  if (J)
+    result.warnings.push_back(
+        fmt::format("intervals are by differences about the nearest point of the grid ({:.6g}): the model does not "
+                    "converge beside the estimates",
+                    fmt::join(model.natural(centre), ", ")));
+  return J;
+}
+
 void set_interval(const ScaledModel& model, std::size_t j, double u, double error, double t, FitEstimate& estimate) {
   const double reach = t * error;
   estimate.lower_95 = model.natural(j, u - reach);
@@ -136,7 +150,7 @@ double student_95(double degrees_of_freedom) { return student_quantile(0.95, deg
 
 void add_statistics(const ScaledModel& model, const Eigen::VectorXd& u, FitResult& result) {
   const auto r = model.residuals(u);
-  const auto J = model.jacobian_at_end(u);
+  const auto J = jacobian_at_end(model, u, result);
   if (!r || !J) throw NoConvergence("the model does not converge at the fitted parameters");
   const std::size_t n = model.n_residuals(), k = model.n_parameters();
   result.residuals.assign(r->begin(), r->begin() + static_cast<std::ptrdiff_t>(n));

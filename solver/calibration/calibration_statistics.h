@@ -5,7 +5,9 @@
 
 namespace pfdm {
 
-/// Fills in estimates, covariance, correlation, warnings, residuals and sums at the scaled parameters u.
+/// Fills in estimates, covariance, correlation, warnings, residuals and sums at the scaled parameters u. Throws
+/// NoConvergence if the model does not converge there, or beside on both sides of a parameter, nor about the grid
+/// point.
 void add_statistics(const ScaledModel& model, const Eigen::VectorXd& u, FitResult& result);
 
 /// The value that Student's t with so many degrees of freedom exceeds in size with the probability 1 - confidence.

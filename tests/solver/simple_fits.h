@@ -1,5 +1,5 @@
 #pragma once
-// Fits with known answers: a decay with noise, and a line.
+// Fits with known answers: a decay with noise, a line, and a force that softens at once.
 
 #include "solver/calibration/calibration.h"
 #include "solver/parallel.h"
@@ -45,6 +45,23 @@ inline FitProblem line_problem(const std::vector<double>& x, const std::vector<d
             for (std::size_t i = 0; i < x.size(); ++i) r.push_back(p[0] + p[1] * x[i] - y[i]);
             return r;
           }};
+}
+
+/// A force that softens at once, a x exp(-(x/b)^8), with noise of a 2,000th of the peak.
+inline FitProblem softening_problem(double a, double b, unsigned seed, double noise = 0.0004) {
+  std::mt19937 engine(seed);
+  std::normal_distribution<double> normal(0.0, 1.0);
+  const auto force = [](double at, double scale, double end) { return scale * at * std::exp(-std::pow(at / end, 8)); };
+  std::vector<double> x = abscissas(100), data;
+  for (double& xi : x) data.push_back(force(xi *= 2.0, a, b) + noise * normal(engine));
+  return {.parameters = {{.name = "a", .unit = "1", .first = 1.0, .lower = 0.1, .upper = 10.0, .log_scale = true},
+                         {.name = "b", .unit = "1", .first = 1.0, .lower = 0.1, .upper = 10.0, .log_scale = true}},
+          .residuals = [=](std::span<const double> p) -> std::optional<std::vector<double>> {
+            std::vector<double> r;
+            for (std::size_t i = 0; i < x.size(); ++i) r.push_back((force(x[i], p[0], p[1]) - data[i]) / noise);
+            return r;
+          },
+          .noise_is_known = true};
 }
 
 }  // namespace pfdm

@@ -172,24 +172,6 @@ TEST(Calibration, SharedDifferencesHaveTheIntervalsOfTheEstimates) {
   }
 }
 
-/// A force that softens at once, a x exp(-(x/b)^8), with noise of a 2,000th of the peak.
-FitProblem softening_problem(double a, double b, unsigned seed) {
-  std::mt19937 engine(seed);
-  std::normal_distribution<double> normal(0.0, 1.0);
-  constexpr double noise = 0.0004;
-  const auto force = [](double at, double scale, double end) { return scale * at * std::exp(-std::pow(at / end, 8)); };
-  std::vector<double> x = abscissas(100), data;
-  for (double& xi : x) data.push_back(force(xi *= 2.0, a, b) + noise * normal(engine));
-  return {.parameters = {{.name = "a", .unit = "1", .first = 1.0, .lower = 0.1, .upper = 10.0, .log_scale = true},
-                         {.name = "b", .unit = "1", .first = 1.0, .lower = 0.1, .upper = 10.0, .log_scale = true}},
-          .residuals = [=](std::span<const double> p) -> std::optional<std::vector<double>> {
-            std::vector<double> r;
-            for (std::size_t i = 0; i < x.size(); ++i) r.push_back((force(x[i], p[0], p[1]) - data[i]) / noise);
-            return r;
-          },
-          .noise_is_known = true};
-}
-
 TEST(Calibration, SharedDifferencesEndWhereCentralOnesDo) {
   FitSettings shared{.cost_tolerance = 2e-4, .least_step = 2e-3, .step = 0.05};
   const FitSettings central = shared;
