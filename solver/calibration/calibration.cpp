@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <utility>
 
 namespace pfdm {
 namespace {
@@ -60,9 +61,14 @@ double promised_gain(const ScaledModel& model, const Eigen::VectorXd& x) {
 /// On from where shared differences have led, by those about the points themselves.
 void refine(const ScaledModel& model, const FitSettings& settings, LeastSquaresResult& best) {
   if (!(promised_gain(model, best.x) > settings.cost_tolerance)) return;
-  LeastSquaresResult next =
-      minimise(problem_of(model, &ScaledModel::jacobian_about), best.x, settings_of(model, settings));
+  LeastSquaresSettings further = settings_of(model, settings);
+  if (further.iterated)
+    further.iterated = [tell = further.iterated, is_known = true](const LeastSquaresPoint& point) mutable {
+      if (!std::exchange(is_known, false)) tell(point);
+    };
+  LeastSquaresResult next = minimise(problem_of(model, &ScaledModel::jacobian_about), best.x, further);
   if (!(next.cost < best.cost)) return;
+  if (!best.path.empty()) next.path.erase(next.path.begin());  // where the other one ends
   next.path.insert(next.path.begin(), best.path.begin(), best.path.end());
   best = std::move(next);
 }
@@ -113,12 +119,15 @@ FitResult fit(const FitProblem& problem, const FitSettings& settings) {
   ScaledModel model(problem, settings);
   FitResult result;
   LeastSquaresResult best;
+  std::size_t best_start = 0;
   const std::vector<Eigen::VectorXd> starts = starting_points(model, settings, result);
   model.prepare(starts);
   for (const Eigen::VectorXd& start : starts) {
     LeastSquaresResult found = minimise(problem_of(model), start, settings_of(model, settings));
     result.starts.push_back(iteration_of(model, {found.x, found.cost}));
-    if (best.message.empty() || found.cost < best.cost) best = std::move(found);
+    if (!best.message.empty() && !(found.cost < best.cost)) continue;
+    best = std::move(found);
+    best_start = result.starts.size() - 1;
   }
   if (!std::isfinite(best.cost)) throw NoConvergence(fmt::format("the fit found no solution: {}", best.message));
   if (model.n_residuals() < model.n_parameters())
@@ -126,6 +135,7 @@ FitResult fit(const FitProblem& problem, const FitSettings& settings) {
         "{} residuals cannot determine {} parameters; at least as many residuals as parameters are required",
         model.n_residuals(), model.n_parameters()));
   if (settings.differences == Differences::shared && !settings.ends_on_grid) refine(model, settings, best);
+  result.starts[best_start] = iteration_of(model, {best.x, best.cost});
   result.noise_is_known = problem.noise_is_known;
   result.converged = best.converged;
   result.message = best.message;
