@@ -30,14 +30,17 @@ std::optional<double> measured_seconds(const std::filesystem::path& results, con
   return std::nullopt;
 }
 
+bool shares_differences(const CurveFitSettings& fit) { return fit.solver.differences == Differences::shared; }
+
 /// Five iterations of a stage, each with the run itself and the differences of its parameters: bar_fit 53,
-/// glass_bead_fit 29, glass_bead_calibration 35 runs.
+/// glass_bead_fit 29, glass_bead_calibration 35 runs. After shared differences those about the estimates.
 int estimated_runs(const CurveFitSettings& fit) {
   constexpr int iterations = 5;
   const int each = fit.solver.differences == Differences::central ? 2 : 1;
   int runs = 0;
   for (const CurveFitStage& stage : fit.stages)
-    runs += stage.starts * iterations * (1 + each * static_cast<int>(stage.parameters.size())) + stage.screened;
+    runs += stage.starts * iterations * (1 + each * static_cast<int>(stage.parameters.size())) + stage.screened +
+            (shares_differences(fit) ? 2 * static_cast<int>(stage.parameters.size()) : 0);
   return runs;
 }
 
@@ -47,7 +50,8 @@ int estimated_runs_of_intervals(const CurveFitSettings& fit) {
   const auto k = static_cast<int>(fit.stages.back().parameters.size());
   const int each = fit.solver.differences == Differences::central ? 2 : 1;
   constexpr int by_end = 7, batches = 4;
-  if (fit.intervals == Intervals::profile) return 2 * by_end * k * (1 + each * (k - 1));
+  const int at_end = shares_differences(fit) ? 2 * (k - 1) : 0;  // about each end of a profile
+  if (fit.intervals == Intervals::profile) return 2 * k * (by_end * (1 + each * (k - 1)) + at_end);
   return fit.intervals == Intervals::posterior ? batches * (k + 1) * (k + 2) : 0;
 }
 
