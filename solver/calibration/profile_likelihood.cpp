@@ -25,7 +25,7 @@ class ProfileSide {
   ProfileSide(const FitProblem& problem, const FitSettings& settings, const FitResult& result, std::size_t k,
               const ProfileSettings& how, double sign, ProfileInterval& found)
       : problem_(problem),
-        settings_(from_one_start(settings)),
+        to_the_end_(from_one_start(settings)),
         result_(result),
         k_(k),
         how_(how),
@@ -35,7 +35,8 @@ class ProfileSide {
     const double freedom = n - static_cast<double>(problem.parameters.size());
     variance_ = problem.noise_is_known ? 1.0 : result.sum_of_squares / freedom;
     due_ = how.due.value_or(problem.noise_is_known ? student_95(1e9) : student_95(freedom));
-    settings_.iterated = {};
+    to_the_end_.iterated = {};
+    is_refined_ = settings.differences != Differences::shared || settings.ends_on_grid;
   }
 
   /// The end in the parameter itself, and whether it is a bound.
@@ -45,8 +46,9 @@ class ProfileSide {
     if (!(last > 0.0)) return {estimate(), true};
     double reach = std::min(linear_reach(), last);
     for (int i = 0; i < how_.most_points; ++i) {
-      const Point point{.reach = reach, .deviations = deviations_at(reach)};
-      if (std::abs(point.deviations - due_) <= how_.precision * due_) return {value_at(refined(point)), false};
+      Point point{.reach = reach, .deviations = deviations_at(reach)};
+      if (is_end(point) && !is_refined_) point = refined(point);
+      if (is_end(point)) return {value_at(interpolated(point)), false};
       const bool is_below = point.deviations < due_;
       same_side_ = i > 0 && is_below == was_below_ ? same_side_ + 1 : 0;
       was_below_ = is_below;
@@ -65,6 +67,17 @@ class ProfileSide {
     double reach;  // from the estimate, in the scale of the fit
     double deviations;
   };
+
+  bool is_end(const Point& point) const { return std::abs(point.deviations - due_) <= how_.precision * due_; }
+
+  /// To the end, as all later ones. The grid makes sums of squares larger, and points seem to be above that are not.
+  Point refined(const Point& tried) {
+    is_refined_ = true;
+    found_.points.pop_back();
+    const Point point{.reach = tried.reach, .deviations = deviations_at(tried.reach)};
+    if (!is_end(point)) above_.reset();
+    return point;
+  }
 
   const FitParameter& parameter() const { return problem_.parameters[k_]; }
   double estimate() const { return result_.estimates[k_].value; }
@@ -96,7 +109,7 @@ class ProfileSide {
   }
 
   // The end on the line through the last point and the nearest other one.
-  double refined(const Point& last) const {
+  double interpolated(const Point& last) const {
     Point other = below_;
     if (above_ && std::abs(above_->deviations - due_) < std::abs(below_.deviations - due_)) other = *above_;
     const double apart = last.deviations - other.deviations;
@@ -130,7 +143,8 @@ class ProfileSide {
 
   double together(double value, double reach, ProfilePoint& point) {
     try {
-      const FitResult held = fit(with_held(problem_, k_, value, start_of_others(value, reach)), settings_);
+      const FitResult held = fit(with_held(problem_, k_, value, start_of_others(value, reach)),
+                                 is_refined_ ? to_the_end_ : on_grid(to_the_end_));
       found_.evaluations += held.evaluations;
       point.others = held.values();
       return growth_of_squares(problem_, result_, k_, value, held);
@@ -159,7 +173,7 @@ class ProfileSide {
   }
 
   const FitProblem& problem_;
-  FitSettings settings_;
+  FitSettings to_the_end_;
   const FitResult& result_;
   std::size_t k_;
   const ProfileSettings& how_;
@@ -169,7 +183,8 @@ class ProfileSide {
   Point below_{};
   std::optional<Point> above_;
   bool was_below_ = false;
-  int same_side_ = 0;  // points in a row on the same side of the end, less one
+  bool is_refined_ = true;  // the others are estimated to the end, not only on the grid of shared differences
+  int same_side_ = 0;       // points in a row on the same side of the end, less one
   ProfilePoint last_;
 };
 

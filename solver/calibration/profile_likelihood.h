@@ -42,7 +42,8 @@ struct ProfileSettings {
   std::function<void(std::size_t k, double value)> trying = {};  ///< before each fit of the others
 };
 
-/// Of parameter k of a fit and its settings. Throws NoConvergence where the model does not on the way.
+/// Of parameter k of a fit and its settings. With shared differences the others are estimated on their grid, and to the
+/// end from where that leads to the end of the interval. Throws NoConvergence where the model does not on the way.
 ProfileInterval profile_interval(const FitProblem& problem, const FitSettings& settings, const FitResult& result,
                                  std::size_t k, const ProfileSettings& how = {});
 
