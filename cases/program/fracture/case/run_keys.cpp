@@ -146,9 +146,8 @@ const KeyTable& solver_keys() {
               "damage_tolerance_l2", number(above_zero_to_one),
               "Relative change of damage in the norm L2 that suffices for convergence, too.", "none"),
           stored<&S::energy_tolerance>("energy_tolerance", number(above_zero_to_one),
-                                       "Relative change of the energy between staggered iterations at convergence; "
-                                       "also error of stiffnesses that "
-                                       "follow the strain, as of cracks that close, over the stored energy."),
+                                       "Relative change of the energy between staggered iterations, and error of "
+                                       "stiffnesses over the stored energy, at convergence."),
           stored<&S::equilibrium_tolerance>("equilibrium_tolerance", number(solvable),
                                             "Relative residual of the momentum balance at an accepted step."),
           stored<&S::maximum_iterations>(
