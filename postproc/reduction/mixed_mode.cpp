@@ -43,7 +43,7 @@ struct LeveredBeam {
 
 /// "", or what a levered beam lacks.
 std::string missing_of_lever(const TestDimensions& s) {
-  const std::string missing =
+  std::string missing =
       missing_dimensions({{"transverse_modulus", s.transverse_modulus}, {"shear_modulus", s.shear_modulus}});
   if (!missing.empty() || s.lever > s.half_span / 3.0) return missing;
   return "needs a lever above a third of half_span: shorter ones close the crack";

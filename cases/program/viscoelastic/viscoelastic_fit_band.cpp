@@ -63,6 +63,7 @@ Moduli widths_at(const ViscoelasticFit& fit, const std::vector<Reach>& reaches, 
                  double angular_frequency) {
   Eigen::MatrixXd effects(4, std::ssize(reaches));
   std::vector<double> values;
+  values.reserve(reaches.size());
   for (const Reach& reach : reaches) values.push_back(reach.value);
   for (std::size_t j = 0; j < reaches.size(); ++j) {
     const auto beside = [&](double sign) {
@@ -102,9 +103,9 @@ CsvTable modulus_band(const ViscoelasticFit& fit, const FitFindings& findings, c
     }
   }
   CsvTable table;
-  table.comments.push_back("complex moduli of the fitted law in the window of the data");
-  table.comments.push_back(reaches ? "lower, upper: 95 % intervals, to first order in the estimates"
-                                   : "without intervals, which would not hold: see the verdict in fit.json");
+  table.comments.emplace_back("complex moduli of the fitted law in the window of the data");
+  table.comments.emplace_back(reaches ? "lower, upper: 95 % intervals, to first order in the estimates"
+                                      : "without intervals, which would not hold: see the verdict in fit.json");
   table.add("frequency_Hz", frequencies);
   for (std::size_t m = 0; m < names.size(); ++m) {
     table.add(fmt::format("{}_Pa", names[m]), std::move(estimate[m]));
