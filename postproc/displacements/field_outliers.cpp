@@ -1,6 +1,7 @@
 #include "postproc/displacements/field_outliers.h"
 
 #include "mesh/bounding_box.h"
+#include "postproc/displacements/chi_square.h"
 
 #include <Eigen/Cholesky>
 #include <Eigen/QR>
@@ -99,8 +100,7 @@ double noise_of(const RecordedFrame& frame, double spacing, int n_components) {
   for (const auto& [square, members] : squares) {
     const auto [left, freedom] = left_by_surface(frame, members, spacing, n_components);
     if (!(freedom > 0.0)) continue;
-    const double median_over_mean = std::pow(1.0 - 2.0 / (9.0 * freedom), 3);  // of chi^2 (Wilson, Hilferty 1931)
-    variances.push_back(left / (freedom * median_over_mean));
+    variances.push_back(left / (freedom * chi_square_over_mean(freedom, 0.0)));
   }
   return variances.empty() ? 0.0 : std::sqrt(median(std::move(variances)));
 }

@@ -1,5 +1,8 @@
 #include "postproc/displacements/field_residuals.h"
 
+#include "postproc/displacements/chi_square.h"
+#include "postproc/displacements/field_outliers.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -97,11 +100,8 @@ struct Sums {
   double found = 0.0;     ///< sum of their squares
   double expected = 0.0;  ///< of independent residuals with a variance of 1
   double n = 0.0;         ///< of independent ones
-  /// Ratios above are by chance in 2e-4 (chi-square by Wilson and Hilferty, PNAS 17 (1931) 684).
-  double limit() const {
-    const double spread = 2.0 / (9.0 * std::max(n, 1.0));
-    return std::pow(1.0 - spread + surely * std::sqrt(spread), 3);
-  }
+  /// Ratios above are by chance in 2e-4.
+  double limit() const { return chi_square_over_mean(std::max(n, 1.0), surely); }
   double ratio(double variance) const { return expected > 0.0 ? found / (expected * variance) : 1.0; }
 };
 
@@ -117,11 +117,9 @@ struct FrameResiduals {
     std::map<std::array<long, 4>, std::array<double, 2>> parts;  // sum of residuals, variance
     for (std::size_t f = 0; f < frames.size(); ++f) {
       const FieldFrame& frame = field.frames[frames[f]];
-      std::map<std::array<long, 2>, std::vector<Eigen::Index>> squares;
+      std::map<Square, std::vector<Eigen::Index>> squares;
       for (std::size_t i = 0; i < frame.middle.size(); ++i)
-        squares[{std::lround(std::floor(frame.middle[i][0] / side)),
-                 std::lround(std::floor(frame.middle[i][1] / side))}]
-            .push_back(static_cast<Eigen::Index>(i));
+        squares[square_of(frame.middle[i], side)].push_back(static_cast<Eigen::Index>(i));
       for (const auto& [square, members] : squares)
         for (Eigen::Index k = 0; k < e[f].cols(); ++k) {
           double sum = 0.0;
@@ -130,7 +128,7 @@ struct FrameResiduals {
             sum += e[f](i, k);
             by_modes += modes[f].row(k * e[f].rows() + i).transpose();
           }
-          auto& part = parts[{square[0], square[1], k, over_frames ? 0 : static_cast<long>(f)}];
+          auto& part = parts[{square.first, square.second, k, over_frames ? 0 : static_cast<long>(f)}];
           part[0] += sum;
           part[1] += static_cast<double>(members.size()) - by_modes.squaredNorm();
         }

@@ -1,10 +1,11 @@
 #include "postproc/displacements/field_squares.h"
 
+#include "postproc/displacements/chi_square.h"
+
 #include <Eigen/Cholesky>
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 #include <utility>
 
 namespace pfdm {
@@ -25,23 +26,16 @@ std::vector<std::array<double, 3>> sorted(const std::vector<Vector>& points) {
   return result;
 }
 
-/// Which chi^2 seldom exceeds (Wilson, Hilferty, Proc. Natl. Acad. Sci. 17 (1931) 684).
-double most_of_noise(double freedom) {
-  const double share = 2.0 / (9.0 * freedom);
-  return freedom * std::pow(1.0 - share + normal_of_chance * std::sqrt(share), 3);
-}
-
 Vector middle_of(const std::vector<Vector>& points) {
   Vector middle = Vector::Zero();
   for (const Vector& p : points) middle += p;
   return middle / static_cast<double>(points.size());
 }
 
-/// Whether few points of a place are missing, and few are there besides.
-bool is_like(const std::vector<Vector>& points, const std::vector<Vector>& common) {
-  std::set<std::array<double, 3>> due;
-  for (const Vector& p : common) due.insert(coordinates(p));
-  const auto found = std::ranges::count_if(points, [&](const Vector& p) { return due.contains(coordinates(p)); });
+/// Whether few points of a place are missing, and few are there besides; both are sorted.
+bool is_like(const std::vector<std::array<double, 3>>& points, const std::vector<std::array<double, 3>>& common) {
+  const auto found =
+      std::ranges::count_if(points, [&](const auto& p) { return std::ranges::binary_search(common, p); });
   const double least = (1.0 - most_missing) * static_cast<double>(std::max(common.size(), points.size()));
   return static_cast<double>(found) >= least;
 }
@@ -59,7 +53,7 @@ FieldSquares::FieldSquares(const MeasuredField& field, const std::vector<Recorde
       if (n_frames[coordinates(p)]++ == 0) seen[square_of(p, side)].push_back(p);
   for (auto& [square, points] : seen) {
     std::erase_if(points, [&](const Vector& p) { return 2 * n_frames[coordinates(p)] < frames.size(); });
-    if (!points.empty()) common_[square] = std::move(points);
+    if (!points.empty()) common_[square] = {.sorted = sorted(points), .middle = middle_of(points), .points = points};
   }
 }
 
@@ -70,8 +64,8 @@ std::map<Square, FieldSquares::Members> FieldSquares::squares_of(const RecordedF
   return squares;
 }
 
-std::size_t FieldSquares::number_of(const std::vector<Vector>& points) {
-  const auto [found, is_new] = known_.try_emplace(sorted(points), places_.size());
+std::size_t FieldSquares::number_of(const std::vector<Point>& key, const std::vector<Vector>& points) {
+  const auto [found, is_new] = known_.try_emplace(key, places_.size());
   if (is_new) {
     FieldPlace& place = places_.emplace_back();
     for (const Vector& p : points) place.points.push_back(field_.plane.at(p));
@@ -127,28 +121,28 @@ FieldFrame FieldSquares::means(const RecordedFrame& frame) {
 bool FieldSquares::is_plane(const Mean& mean, double noise, double rounding) const {
   if (mean.points.size() < fewest_of_plane) return false;
   const double freedom = static_cast<double>(mean.points.size() - 3) * field_.n_components;
-  return mean.squares <= (noise * noise + rounding * rounding) * most_of_noise(freedom);
+  return mean.squares <=
+         (noise * noise + rounding * rounding) * (freedom * chi_square_over_mean(freedom, normal_of_chance));
 }
 
 std::size_t FieldSquares::place_of(const Square& square, double noise, double rounding, Mean& mean) {
-  const auto common = common_.find(square);
-  if (common == common_.end() || !is_like(mean.points, common->second)) {
+  const auto found = common_.find(square);
+  const std::vector<Point> key = sorted(mean.points);
+  const bool is_there = found != common_.end() && is_like(key, found->second.sorted);
+  const bool is_whole = is_there && key == found->second.sorted;
+  if (!is_whole && !(is_there && is_plane(mean, noise, rounding))) {
     n_own_ += side_ > 0.0 ? 1 : 0;
-    return number_of(mean.points);
+    return number_of(key, mean.points);
   }
-  const Vector middle = middle_of(common->second);
-  if (sorted(mean.points) != sorted(common->second)) {
-    if (!is_plane(mean, noise, rounding)) {
-      ++n_own_;
-      return number_of(mean.points);
-    }
+  const Common& common = found->second;
+  if (!is_whole) {
     ++n_carried_;
-    const Eigen::Vector2d by = (middle - mean.middle).head<2>();
+    const Eigen::Vector2d by = (common.middle - mean.middle).head<2>();
     mean.u += mean.slopes.transpose() * by;
     mean.n = 1.0 / (1.0 / mean.n + by.dot(mean.inverse * by));  // as known as the plane is there
   }
-  mean.middle = middle;
-  return number_of(common->second);
+  mean.middle = common.middle;
+  return number_of(common.sorted, common.points);
 }
 
 }  // namespace pfdm

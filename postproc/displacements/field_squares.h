@@ -38,9 +38,16 @@ class FieldSquares {
     Eigen::Matrix2d inverse = Eigen::Matrix2d::Zero();  ///< of the sum of squares of their distances [1/m^2]
     double squares = 0.0;                               ///< sum of what it leaves [m^2]
   };
+  /// The points of a place.
+  struct Common {
+    std::vector<Point> sorted;
+    Vector middle = Vector::Zero();
+    std::vector<Vector> points;
+  };
   std::map<Square, Members> squares_of(const RecordedFrame& frame) const;
   static Mean mean_of(const RecordedFrame& frame, const Members& members);
-  std::size_t number_of(const std::vector<Vector>& points);
+  /// `key`: the points, sorted.
+  std::size_t number_of(const std::vector<Point>& key, const std::vector<Vector>& points);
   /// Whether it leaves no more than noise of that standard deviation [m], and rounding, would.
   bool is_plane(const Mean& mean, double noise, double rounding) const;
   /// The number of the place of a mean, which is carried to its middle.
@@ -50,7 +57,7 @@ class FieldSquares {
   double side_;
   std::vector<FieldPlace>& places_;
   std::map<std::vector<Point>, std::size_t> known_;  // numbers of places by their points
-  std::map<Square, std::vector<Vector>> common_;
+  std::map<Square, Common> common_;
   std::size_t n_carried_ = 0, n_own_ = 0;
 };
 

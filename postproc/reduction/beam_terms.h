@@ -26,6 +26,16 @@ struct FittedLine {
 /// NaN of fewer than two different x.
 FittedLine fitted_line(const std::vector<double>& x, const std::vector<double>& y);
 
+/// The crack length at which `compliance_of`, which rises with it, is `compliance`; an end of low to high where that is
+/// outside.
+double crack_of(const auto& compliance_of, double compliance, double low, double high) {
+  for (int i = 0; i < 60; ++i) {
+    const double middle = 0.5 * (low + high);
+    (compliance_of(middle) < compliance ? low : high) = middle;
+  }
+  return high;
+}
+
 /// F for large displacements (ASTM D5528, annex A1): 1 - 3/10 (d/a)^2 - 3/2 d t/a^2. Without t the last term is left
 /// out.
 double large_displacement_factor(double displacement, double crack_length, double block_offset);

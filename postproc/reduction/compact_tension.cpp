@@ -25,14 +25,9 @@ double compact_compliance(double alpha) {
   return square((1.0 + alpha) / (1.0 - alpha)) * rest;
 }
 
-/// a/W of a compliance E' B C, by bisection; an end of the range where it is outside.
+/// a/W of a compliance E' B C, an end of the range where it is outside.
 double compact_crack(double compliance) {
-  double low = shortest_compact_crack, high = longest_compact_crack;
-  for (int i = 0; i < 60; ++i) {
-    const double middle = 0.5 * (low + high);
-    (compact_compliance(middle) < compliance ? low : high) = middle;
-  }
-  return high;
+  return crack_of(compact_compliance, compliance, shortest_compact_crack, longest_compact_crack);
 }
 
 /// E' of the initial compliance [Pa].

@@ -30,15 +30,6 @@ struct LeveredBeam {
     const double second = 9.0 * common * shear() * square(a + root_rotation_in_shear * chi * h);
     return {first + second, a, second / (first + second)};
   }
-  /// The crack of a compliance, by bisection; at most `longest`.
-  double crack_of(double compliance, double longest) const {
-    double low = 0.0, high = longest;
-    for (int i = 0; i < 60; ++i) {
-      const double middle = 0.5 * (low + high);
-      (unit_compliance(middle) < compliance * modulus ? low : high) = middle;
-    }
-    return high;
-  }
 };
 
 /// "", or what a levered beam lacks.
@@ -88,7 +79,8 @@ CalibratedMethod mixed_equivalent_crack(const CalibrationData& data) {
   const LeveredBeam beam = levered_beam(data);
   return {.at =
               [=, longest = nearest_to_lever * beam.L](double P, double d, double) {
-                const double a = beam.crack_of(d / P, longest);
+                const double a =
+                    crack_of([&](double at) { return beam.unit_compliance(at); }, d / P * beam.modulus, 0.0, longest);
                 const bool is_inside = a > 1e-9 * longest && a < (1.0 - 1e-9) * longest;
                 return is_inside ? beam.reduced(P, a) : Reduced{not_given, a};
               },

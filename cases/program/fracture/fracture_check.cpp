@@ -91,8 +91,7 @@ MeasuredFields fields_of_fit(const FractureProgram& program, const Mesh& mesh, L
   if (program.fit && !experiment.fields.empty() && program.fit->solver.differences == Differences::shared)
     log.warn(
         "[fit] differences = \"shared\": with displacement fields they save no runs, for the fit goes on with central "
-        "ones; "
-        "take \"central\" and a small step");
+        "ones; take \"central\" and a small step");
   for (const FieldSettings& settings : experiment.fields) {
     require_known_noise(settings, experiment.specimens);
     const RecordedField recorded = read_recorded_field(settings, experiment.specimens, program.file.directory);

@@ -249,27 +249,24 @@ double CellStiffness::follow(const CellMechanics& mechanics, FractureState& stat
     return 0.0;
   }
   return parallel_sum(mesh_.n_cells(), [&](Index c) {
-    return split(c).has_secant() && anisotropy(c) == nullptr
-               ? follow_with_closure(c, closing_strain(c, mechanics, state), state)
-               : 0.0;
+    return split(c).has_secant() && anisotropy(c) == nullptr ? follow_with_closure(c, mechanics, state) : 0.0;
   });
 }
 
 // The strain with the volume change that belongs to the cell's mean stress. The tractions hold a closed crack; the
 // volume change of the face displacements may have the other sign where the strain varies within a cell, and the crack
 // would open and close for ever.
-Tensor CellStiffness::closing_strain(Index cell, const CellMechanics& mechanics, const FractureState& state) const {
+Tensor CellStiffness::closing_strain(Index cell, const CellMechanics& mechanics, double g, double closure) const {
   const Tensor strain = mechanics.elastic_strain(cell);
-  const double g = factor(cell, seen(cell, state));
-  const double K = split(cell).secant(elasticity(cell), g, state.closure[cell]).bulk_modulus();
+  const double K = split(cell).secant(elasticity(cell), g, closure).bulk_modulus();
   return deviator(strain) + mechanics.stress[cell].trace() / (9.0 * K) * Tensor::Identity();
 }
 
-double CellStiffness::follow_with_closure(Index cell, const Tensor& strain, FractureState& state) {
-  double& closure = state.closure[cell];
-  const double wanted = split(cell).closure(strain), before = closure;
-  const double g = factor(cell, seen(cell, state));
-  closure = closures_.next(cell, g, before, wanted);
+double CellStiffness::follow_with_closure(Index cell, const CellMechanics& mechanics, FractureState& state) {
+  const double g = factor(cell, seen(cell, state)), before = state.closure[cell];
+  const Tensor strain = closing_strain(cell, mechanics, g, before);
+  const double wanted = split(cell).closure(strain);
+  state.closure[cell] = closures_.next(cell, g, before, wanted);
   if (wanted == before) return 0.0;
   const double wrong = energy_density(split(cell).secant(elasticity(cell), g, wanted), strain) -
                        energy_density(split(cell).secant(elasticity(cell), g, before), strain);

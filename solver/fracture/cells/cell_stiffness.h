@@ -104,8 +104,8 @@ class CellStiffness {
   const EnergySplit& split(Index cell) const;
   StrainLaw law(const CellField<double>& g, const CellField<double>& closure) const;
   bool has_degradable_part(Index cell) const;
-  Tensor closing_strain(Index cell, const CellMechanics& mechanics, const FractureState& state) const;
-  double follow_with_closure(Index cell, const Tensor& strain, FractureState& state);
+  Tensor closing_strain(Index cell, const CellMechanics& mechanics, double g, double closure) const;
+  double follow_with_closure(Index cell, const CellMechanics& mechanics, FractureState& state);
 
   const Mesh& mesh_;
   const FractureModel& model_;
