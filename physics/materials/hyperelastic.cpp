@@ -146,9 +146,8 @@ OfVolume HyperelasticMaterial::dilation(double Lambda, double change) const {
   return {at.energy, p, by_stretch / (3.0 * stretch * stretch)};
 }
 
-PotentialAt HyperelasticMaterial::compression_with(double Lambda, const Tensor& H, double change) const {
-  if (change >= 0.0) return {};
-  const OfVolume f = extended(change, [&](double at) { return dilation(Lambda, at); });
+PotentialAt HyperelasticMaterial::dilation_of(double Lambda, const Tensor& H) const {
+  const OfVolume f = extended(volume_change(H), [&](double at) { return dilation(Lambda, at); });
   return by_volume(Tensor::Identity() + H, f);
 }
 

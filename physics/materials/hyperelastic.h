@@ -90,16 +90,16 @@ class HyperelasticMaterial final : public Material {
   PotentialAt potential(const Tensor& H, double change) const { return potential_with(Lambda_, H, change); }
   /// W_c = W(J^(1/3) 1) where J < 1, zero elsewhere, and its derivatives: the part that a split into volumetric (J >=
   /// 1) and isochoric energy keeps from damage.
-  PotentialAt compression(const Tensor& H) const { return compression_with(Lambda_, H, volume_change(H)); }
+  PotentialAt compression(const Tensor& H) const {
+    return volume_change(H) < 0.0 ? dilation_of(Lambda_, H) : PotentialAt();
+  }
   /// W_m, which has no share c of U, and its derivatives.
   PotentialAt moderate_potential(const Tensor& H) const { return moderate_potential(H, volume_change(H)); }
   PotentialAt moderate_potential(const Tensor& H, double change) const {
     return potential_with(Lambda_ - pressure_modulus_, H, change);
   }
-  PotentialAt moderate_compression(const Tensor& H) const { return moderate_compression(H, volume_change(H)); }
-  PotentialAt moderate_compression(const Tensor& H, double change) const {
-    return compression_with(Lambda_ - pressure_modulus_, H, change);
-  }
+  /// W_m(J^(1/3) 1) at any J, and its derivatives.
+  PotentialAt moderate_dilation(const Tensor& H) const { return dilation_of(Lambda_ - pressure_modulus_, H); }
   /// Shear modulus of the tangent A at F, which has this lambda at F = 1: mu, or for laws that stiffen a mean over
   /// three directions [Pa].
   double shear_modulus(const Tensor& F, const GradientTangent& A, double lambda) const;
@@ -127,7 +127,7 @@ class HyperelasticMaterial final : public Material {
  private:
   void choose_pressure(double shear_lambda);
   PotentialAt potential_with(double Lambda, const Tensor& H, double change) const;
-  PotentialAt compression_with(double Lambda, const Tensor& H, double change) const;
+  PotentialAt dilation_of(double Lambda, const Tensor& H) const;
   OfVolume volumetric(double Lambda, double change) const;
   OfVolume of_volume(double Lambda, double change) const;
   OfVolume dilation(double Lambda, double change) const;

@@ -50,11 +50,11 @@ CellField<double> CellStiffness::factors(const FractureState& state) const {
 
 Tensor CellStiffness::cauchy_stress(Index cell, const CellMechanics& mechanics, const FractureState& state,
                                     const Vector& plane_normal) const {
-  return finite_.cauchy_stress(cell, mechanics, factor(cell, state.damage[cell]), plane_normal);
+  return finite_.cauchy_stress(cell, mechanics, left(cell, state), plane_normal);
 }
 
 Tensor CellStiffness::thinned_gradient(Index cell, const CellMechanics& mechanics, const FractureState& state) const {
-  return finite_.thinned(cell, mechanics, factor(cell, state.damage[cell]));
+  return finite_.thinned(cell, mechanics, left(cell, state));
 }
 
 void CellStiffness::set(const FractureState& state, MomentumSolver& momentum) const {
@@ -64,7 +64,7 @@ void CellStiffness::set(const FractureState& state, MomentumSolver& momentum) co
   if (finite_.any()) {
     const CellField<Mandel>& free = momentum.balance().eigenstrain();
     const auto law = [&](Index c, Index own, const Tensor& H) {
-      return finite_.law({c, own}, H, g[c], state.closure[c],
+      return finite_.law({c, own}, H, {g[c], state.closure[c]},
                          free.size() > 0 ? FreeDeformation(to_tensor(free[c])) : FreeDeformation());
     };
     momentum.set_finite(law, finite_.histories().gaps(), g, state.displacement, state.load);
@@ -153,7 +153,11 @@ HistoryStress CellStiffness::with_histories(const FractureState& state, const Ce
 }
 
 double CellStiffness::integrate(const CellMechanics& mechanics, const FractureState& start, FractureState& state) {
-  if (finite_.histories().any()) finite_.advance(mechanics, factors(state), state.histories);
+  if (finite_.histories().any()) {
+    CellField<Degraded> left(mesh_.n_cells());
+    parallel_for(mesh_.n_cells(), [&](Index c) { left[c] = this->left(c, state); });
+    finite_.advance(mechanics, left, state.histories);
+  }
   if (!materials_.any()) return 0.0;
   return parallel_sum(mesh_.n_cells(), [&](Index c) {
     if (!materials_.has(c)) return 0.0;
@@ -175,7 +179,7 @@ double CellStiffness::driving_energy(Index cell, const CellMechanics& mechanics,
 
 FiniteEnergies CellStiffness::finite_energies(Index cell, const CellMechanics& mechanics,
                                               const FractureState& state) const {
-  return finite_.energies(cell, mechanics, factor(cell, state.damage[cell]), state.histories);
+  return finite_.energies(cell, mechanics, left(cell, state), state.histories);
 }
 
 CellField<FiniteEnergies> CellStiffness::finite_energies(const CellMechanics& mechanics,
@@ -192,7 +196,7 @@ DrivingAt CellStiffness::driving_energy(Index cell, const FiniteEnergies& at, do
 }
 
 Tensor CellStiffness::undamaged_stress(Index cell, const CellMechanics& mechanics, const FractureState& state) const {
-  if (finite_.any()) return finite_.undamaged_biot_stress(cell, mechanics, factor(cell, state.damage[cell]));
+  if (finite_.any()) return finite_.undamaged_biot_stress(cell, mechanics, left(cell, state));
   return stress(elasticity(cell), mechanics.elastic_strain(cell));
 }
 
@@ -223,7 +227,7 @@ CellField<Mandel> CellStiffness::eigenstrain_moments(const CellMechanics& mechan
   if (!finite_.any()) return mechanics.traction_moment;
   CellField<Mandel> moments(mechanics.eigenstrain.size());
   parallel_for(moments.size(), [&](Index c) {
-    moments[c] = to_mandel(finite_.eigenstrain_moment(c, mechanics, factor(c, state.damage[c]), plane_normal));
+    moments[c] = to_mandel(finite_.eigenstrain_moment(c, mechanics, left(c, state), plane_normal));
   });
   return moments;
 }
@@ -244,10 +248,7 @@ double CellStiffness::plastic_dissipation(Index cell, const FractureState& from,
 }
 
 double CellStiffness::follow(const CellMechanics& mechanics, FractureState& state) {
-  if (finite_.any()) {
-    parallel_for(mesh_.n_cells(), [&](Index c) { state.closure[c] = finite_.closure(c, mechanics); });
-    return 0.0;
-  }
+  if (finite_.any()) return parallel_sum(mesh_.n_cells(), [&](Index c) { return follow_volume(c, mechanics, state); });
   return parallel_sum(mesh_.n_cells(), [&](Index c) {
     return split(c).has_secant() && anisotropy(c) == nullptr ? follow_with_closure(c, mechanics, state) : 0.0;
   });
@@ -260,6 +261,15 @@ Tensor CellStiffness::closing_strain(Index cell, const CellMechanics& mechanics,
   const Tensor strain = mechanics.elastic_strain(cell);
   const double K = split(cell).secant(elasticity(cell), g, closure).bulk_modulus();
   return deviator(strain) + mechanics.stress[cell].trace() / (9.0 * K) * Tensor::Identity();
+}
+
+// At finite strain.
+double CellStiffness::follow_volume(Index cell, const CellMechanics& mechanics, FractureState& state) {
+  const Degraded left{factor(cell, seen(cell, state)), state.closure[cell]};
+  const std::optional<double> change = finite_.closing_change(cell, mechanics, left);
+  if (!change) return 0.0;
+  state.closure[cell] = closures_.next(cell, left.g, left.closure, *change < 0.0 ? 1.0 : 0.0);
+  return finite_.closing_energy(cell, *change, left);
 }
 
 double CellStiffness::follow_with_closure(Index cell, const CellMechanics& mechanics, FractureState& state) {

@@ -88,6 +88,9 @@ class CellStiffness {
 
  private:
   double factor(Index cell, double d) const;  // g, the residual stiffness included
+  Degraded left(Index cell, const FractureState& state) const {
+    return {factor(cell, state.damage[cell]), state.closure[cell]};
+  }
   double seen(Index cell, const FractureState& state) const {
     return seen_.size() > 0 ? seen_[cell] : state.damage[cell];
   }
@@ -106,6 +109,7 @@ class CellStiffness {
   bool has_degradable_part(Index cell) const;
   Tensor closing_strain(Index cell, const CellMechanics& mechanics, double g, double closure) const;
   double follow_with_closure(Index cell, const CellMechanics& mechanics, FractureState& state);
+  double follow_volume(Index cell, const CellMechanics& mechanics, FractureState& state);
 
   const Mesh& mesh_;
   const FractureModel& model_;

@@ -9,8 +9,11 @@
 namespace pfdm {
 namespace {
 
-constexpr double least_thickness = 1e-4;   // of a sheet, over that at rest: laws of principal stretches end at 0
-constexpr double closing_pressure = 1e-3;  // over mu, at which the faces of a cell are those of a closed crack
+constexpr double least_thickness = 1e-4;  // of a sheet, over that at rest: laws of principal stretches end at 0
+// Shear stiffness of the faces of closed cracks over the bulk modulus. Such a crack has no shear
+// stiffness of its own. Where faces have none either, the displacements beside them are arbitrary, and the tractions
+// turn with them: Newton's method does not end on prisms, tetrahedra and polyhedra (solver/fracture/staggered.md).
+constexpr double slip_share = 1e-3;
 
 PotentialAt difference(const PotentialAt& a, const PotentialAt& b) {
   return {a.energy - b.energy, a.stress - b.stress, a.tangent - b.tangent};
@@ -18,6 +21,11 @@ PotentialAt difference(const PotentialAt& a, const PotentialAt& b) {
 
 PotentialAt sum(double w_a, const PotentialAt& a, double w_b, const PotentialAt& b) {
   return {w_a * a.energy + w_b * b.energy, w_a * a.stress + w_b * b.stress, w_a * a.tangent + w_b * b.tangent};
+}
+
+// Of W_m [Pa].
+double moderate_bulk_modulus(const HyperelasticMaterial& material) {
+  return material.elasticity().bulk_modulus() - material.pressure_modulus();
 }
 
 CellField<const HyperelasticMaterial*> hyperelastic_of(const Mesh& mesh, const FractureModel& model) {
@@ -49,16 +57,20 @@ FiniteCells::FiniteCells(const Mesh& mesh, const FractureModel& model)
 
 // J - 1 = `change` is that of the cell, as its pressure has it, and H its mean gradient. What the faces add to W_m of H
 // (beside_mean and CellMechanics::energy) contains what J of the cell differs by from det F.
-FiniteCells::Parts FiniteCells::parts(FinitePlace place, const Tensor& H, double change) const {
+FiniteCells::Parts FiniteCells::parts(FinitePlace place, const Tensor& H, double change, double closure) const {
   const Index cell = place.cell;
   const HyperelasticMaterial& material = *material_[cell];
-  Parts parts{.moderate = material.moderate_potential(H), .network = network_potential(material, H)};
-  const bool may_differ = !split_[cell]->driven_by_compression;
-  if (may_differ) parts.compression = material.moderate_compression(H);
+  Parts parts{.moderate = material.moderate_potential(H), .network = network_potential(material, H), .change = change};
   if (material.pressure_modulus() > 0.0)
     parts.pressure = difference(material.potential(H, change), material.moderate_potential(H, change));
   parts.branches = of_branches(place, H);
-  parts.is_compressed = may_differ && change < 0.0;
+  if (split_[cell]->driven_by_compression) return parts;
+  const bool keeps = keeps_compression(cell);
+  parts.closure = keeps ? closure : (change < 0.0 ? 1.0 : 0.0);
+  if (parts.closure == 0.0) return parts;
+  // A closed crack has no shear stiffness that would make two volumes of a cell agree: its pressure bears all.
+  const double beside = moderate_bulk_modulus(material) / material.pressure_modulus();
+  parts.dilation = keeps && has_pressure(cell) ? sum(beside, parts.pressure, 0.0, {}) : material.moderate_dilation(H);
   return parts;
 }
 
@@ -66,18 +78,20 @@ PotentialAt FiniteCells::of_branches(FinitePlace at, const Tensor& H) const {
   return histories_.has(at.cell) ? histories_.branches(at.cell).over(H, histories_.before(at)) : PotentialAt();
 }
 
-FiniteCells::Parts FiniteCells::parts(Index cell, const CellMechanics& mechanics, const Tensor& H) const {
+FiniteCells::Parts FiniteCells::parts(Index cell, const CellMechanics& mechanics, const Tensor& H,
+                                      double closure) const {
   const bool is_swept = mechanics.volume_change.size() > 0 && has_pressure(cell);
-  if (!is_swept) return parts({cell}, H);
-  return parts({cell}, H, free_deformation(cell, mechanics).elastic_change(mechanics.volume_change[cell]));
+  if (!is_swept) return parts({cell}, H, closure);
+  return parts({cell}, H, free_deformation(cell, mechanics).elastic_change(mechanics.volume_change[cell]), closure);
 }
 
 PotentialAt FiniteCells::damaged(Index cell, const Parts& at, const FiniteShares& by, double g) const {
   PotentialAt degraded = sum(by.moderate.value, at.moderate, by.network.value, at.network);
   if (histories_.has(cell)) degraded = sum(1.0, degraded, by.moderate.value, at.branches);
   PotentialAt relaxed = sum(1.0, degraded, by.pressure.value, at.pressure);
-  if (!keeps(cell, at)) return relaxed;
-  return sum(1.0, relaxed, 1.0, sum(1.0 - g, at.compression, 1.0 - by.pressure.value, at.pressure));
+  const double kept = this->kept(cell, at);
+  if (kept == 0.0) return relaxed;
+  return sum(1.0, relaxed, kept, sum(1.0 - g, at.dilation, 1.0 - by.pressure.value, at.pressure));
 }
 
 FreeDeformation FiniteCells::free_deformation(Index cell, const CellMechanics& mechanics) {
@@ -93,10 +107,9 @@ Tensor FiniteCells::elastic(const Tensor& H, const FreeDeformation& free) const 
 }
 
 // In the stiffness of faces J*/J^2 replaces 1/J_e^2 (FiniteLaw::swelling), and lambda/J* replaces lambda.
-FiniteLaw FiniteCells::law(FinitePlace at, const Tensor& H, double g, double closure,
-                           const FreeDeformation& free) const {
+FiniteLaw FiniteCells::law(FinitePlace at, const Tensor& H, const Degraded& left, const FreeDeformation& free) const {
   const Tensor F_e = elastic(H, free);
-  FiniteLaw law = is_plane_stress() ? plane_stress_law(at, F_e, g) : solid_law(at, F_e, g, closure);
+  FiniteLaw law = is_plane_stress() ? plane_stress_law(at, F_e, left) : solid_law(at, F_e, left);
   if (free.is_none()) return law;
   const double mean = free.inverse().squaredNorm() / 3.0;  // of m.m
   law.stress = free.stress(law.stress);
@@ -129,44 +142,46 @@ void FiniteCells::add_branches(FinitePlace at, const Tensor& H, const FiniteShar
   law.pressure_left = (lambda + 2.0 / 3.0) * histories_.volume_left(at.cell);
 }
 
-FiniteLaw FiniteCells::solid_law(FinitePlace at, const Tensor& H, double g, double closure) const {
+FiniteLaw FiniteCells::solid_law(FinitePlace at, const Tensor& H, const Degraded& left) const {
   const Index cell = at.cell;
   const HyperelasticMaterial& material = *material_[cell];
-  const bool keeps = keeps_compression(cell);
+  const double g = left.g, kept = keeps_compression(cell) ? left.closure : 0.0;
   const FiniteShares by = finite_shares(*material_[cell], g);
   const double w = by.moderate.value / g;
   const PotentialAt moderate = material.moderate_potential(H);
   PotentialAt degraded{0.0, by.moderate.value * moderate.stress, by.moderate.value * moderate.tangent};
   if (w < 1.0) degraded = sum(1.0, degraded, by.network.value, network_potential(material, H));
   FiniteLaw law{.stress = degraded.stress, .A = degraded.tangent, .face = {}};
-  if (keeps && g < 1.0) {
-    const PotentialAt kept = material.moderate_compression(H);
-    law.stress += (1.0 - g) * kept.stress;
-    law.A += (1.0 - g) * kept.tangent;
+  if (kept > 0.0 && g < 1.0 && !has_pressure(cell)) {
+    const PotentialAt dilation = material.moderate_dilation(H);
+    law.stress += kept * (1.0 - g) * dilation.stress;
+    law.A += kept * (1.0 - g) * dilation.tangent;
   }
   IsotropicElasticity sound = material.elasticity();
   if (material.pressure_modulus() > 0.0) {
     law.pressure = &material;
-    law.open = by.pressure.value;
-    law.closed = keeps ? 1.0 : law.open;
+    law.pressure_share = by.pressure.value + kept * (1.0 - by.pressure.value);
     law.pressure_modulus = material.pressure_modulus();
+    law.pressure_kept = kept * (1.0 - g) * moderate_bulk_modulus(material);
     sound.lambda -= material.pressure_modulus();
   }
   sound.mu = w * material.shear_modulus(Tensor::Identity() + H, moderate.tangent, sound.lambda) + (1.0 - w) * sound.mu;
   law.face = {.lambda = w * g * sound.lambda, .mu = g * sound.mu};
   law.swelling = w;
-  if (keeps) law.face.lambda += closure * (1.0 - g) * sound.bulk_modulus();
+  law.face.lambda += kept * (1.0 - g) * sound.bulk_modulus();
+  law.face.mu += slip_share * kept * (1.0 - g) * sound.bulk_modulus();
   add_branches(at, H, by, law);
   return law;
 }
 
 // The stiffness of the faces is that of an incompressible sheet at F = 1, (3 mu c c^T + mu)/h, c being the cofactor
 // within the plane.
-FiniteLaw FiniteCells::plane_stress_law(FinitePlace place, const Tensor& H, double g) const {
+FiniteLaw FiniteCells::plane_stress_law(FinitePlace place, const Tensor& H, const Degraded& left) const {
   const Index cell = place.cell;
+  const double g = left.g;
   const FiniteShares by = finite_shares(*material_[cell], g);
   const Tensor nn = across_ * across_.transpose();
-  const PotentialAt at = damaged(cell, parts(place, thinned(place, H, g)), by, g);
+  const PotentialAt at = damaged(cell, parts(place, thinned(place, H, left), left.closure), by, g);
   IsotropicElasticity whole = material_[cell]->elasticity();
   const double of_branches = histories_.has(cell) ? histories_.modulus(cell) : 0.0;
   whole.mu += of_branches;
@@ -185,16 +200,17 @@ FiniteLaw FiniteCells::plane_stress_law(FinitePlace place, const Tensor& H, doub
 
 // With the stretch across a plate at which there is no stress across it, or the least thickness: of a network, which
 // pulls at any, and of cells turned inside out.
-Tensor FiniteCells::thinned(FinitePlace place, const Tensor& H, double g) const {
+Tensor FiniteCells::thinned(FinitePlace place, const Tensor& H, const Degraded& left) const {
   if (!is_plane_stress()) return H;
   const Index cell = place.cell;
+  const double g = left.g;
   constexpr Index most_steps = 80;
   constexpr double rounding = 1e-15;
   const FiniteShares by = finite_shares(*material_[cell], g);
   const Tensor nn = across_ * across_.transpose();
   double strain = 0.0;
   for (Index k = 0; k < most_steps; ++k) {
-    const PotentialAt at = damaged(cell, parts(place, H + strain * nn), by, g);
+    const PotentialAt at = damaged(cell, parts(place, H + strain * nn, left.closure), by, g);
     const double stiffness = contract(nn, from_components(at.tangent * to_components(nn)));
     const double next = std::max(strain - contract(nn, at.stress) / stiffness, least_thickness - 1.0);
     const bool there = std::abs(next - strain) <= rounding * (std::abs(strain) + H.norm());
@@ -204,29 +220,41 @@ Tensor FiniteCells::thinned(FinitePlace place, const Tensor& H, double g) const 
   return H + strain * nn;
 }
 
-Tensor FiniteCells::thinned_elastic(Index cell, const CellMechanics& mechanics, double g) const {
-  return thinned({cell}, elastic(mechanics.gradient[cell], free_deformation(cell, mechanics)), g);
+Tensor FiniteCells::thinned_elastic(Index cell, const CellMechanics& mechanics, const Degraded& left) const {
+  return thinned({cell}, elastic(mechanics.gradient[cell], free_deformation(cell, mechanics)), left);
 }
 
-Tensor FiniteCells::thinned(Index cell, const CellMechanics& mechanics, double g) const {
+Tensor FiniteCells::thinned(Index cell, const CellMechanics& mechanics, const Degraded& left) const {
   if (!is_plane_stress()) return mechanics.gradient[cell];
-  return free_deformation(cell, mechanics).total(thinned_elastic(cell, mechanics, g));
+  return free_deformation(cell, mechanics).total(thinned_elastic(cell, mechanics, left));
 }
 
-double FiniteCells::closure(Index cell, const CellMechanics& mechanics) const {
-  if (!keeps_compression(cell)) return 0.0;
-  const Tensor F_e = elastic(mechanics.gradient[cell], free_deformation(cell, mechanics));
-  const IsotropicElasticity& sound = material_[cell]->elasticity();
-  return std::clamp(-volume_change(F_e) * sound.bulk_modulus() / (closing_pressure * sound.mu), 0.0, 1.0);
+// The tractions hold a closed crack. The volume of the mean gradient may have the other sign where the strain varies
+// within a cell, and the crack would open and close for ever.
+std::optional<double> FiniteCells::closing_change(Index cell, const CellMechanics& mechanics,
+                                                  const Degraded& left) const {
+  if (!keeps_compression(cell)) return {};
+  const Parts at = parts(cell, mechanics, thinned_elastic(cell, mechanics, left), left.closure);
+  if (has_pressure(cell)) return at.change;
+  const Tensor excess = beside_law(cell, mechanics, at, mechanics.stress[cell], left.g);
+  const Tensor F = Tensor::Identity() + mechanics.gradient[cell];
+  const double K = (left.g + left.closure * (1.0 - left.g)) * material_[cell]->elasticity().bulk_modulus();
+  return at.change + contract(excess, F) / (3.0 * K * std::max(F.determinant(), least_volume));
 }
 
-void FiniteCells::advance(const CellMechanics& mechanics, const CellField<double>& g, CellHistories& to) {
+double FiniteCells::closing_energy(Index cell, double change, const Degraded& left) const {
+  const double wrong = std::abs(left.closure - (change < 0.0 ? 1.0 : 0.0));
+  const double K = wrong * (1.0 - left.g) * material_[cell]->elasticity().bulk_modulus();
+  return 0.5 * K * change * change * mesh_.cell_volume[cell];
+}
+
+void FiniteCells::advance(const CellMechanics& mechanics, const CellField<Degraded>& left, CellHistories& to) {
   if (mechanics.eigenstrain.size() > 0) free_volume_ = CellField<double>(mesh_.n_cells(), 1.0);
   parallel_for(count_of(mechanics.gradients_of_laws), [&](Index k) {
     const FinitePlace at = histories_.place(k);
     if (!histories_.has(at.cell)) return;
     const FreeDeformation free = free_deformation(at.cell, mechanics);
-    histories_.advance(at, thinned(at, elastic(mechanics.gradients_of_laws[k], free), g[at.cell]), to);
+    histories_.advance(at, thinned(at, elastic(mechanics.gradients_of_laws[k], free), left[at.cell]), to);
     if (at.own >= 0) return;
     if (free_volume_.size() > 0) free_volume_[k] = free.volume();
     const bool has_volume = mechanics.volume_change.size() > 0;

@@ -5,6 +5,10 @@
 //   none, hybrid           W = g W(F)
 //   volumetric_deviatoric  W = g (W(F) - W_c) + W_c,  W_c = W(J^(1/3) 1) where J < 1, else 0
 //
+// Whether a crack is closed, J < 1, is held while equilibrium is found and follows from one iteration of the loop to
+// the next, as at small strain (crack_closures.h): W = g W + closure (1 - g) W_c at any J. With a pressure, which bears
+// all of a closed crack, (K_m/kappa) c U takes the place of W_c of W_m, K_m and kappa being their bulk moduli.
+//
 // `hybrid` is driven as volumetric_deviatoric, by W - W_c, and is not variational (Ambati, Gerasimov, De Lorenzis,
 // Comput. Mech. 55 (2015) 383). What broken cells become is in finite_degradation.h.
 //
@@ -32,10 +36,17 @@
 #include "solver/fracture/model/state.h"
 #include "solver/momentum/solution/momentum_solver.h"
 
+#include <optional>
 #include <utility>
 #include <vector>
 
 namespace pfdm {
+
+/// What damage has left of a cell: its stiffness factor g, and how closed its crack is (crack_closures.h). Both are
+/// held while equilibrium is found.
+struct Degraded {
+  double g = 1.0, closure = 0.0;
+};
 
 /// The energies of a cell at some displacements, each of which has its share by the damage [J/m^3].
 struct FiniteEnergies {
@@ -43,8 +54,8 @@ struct FiniteEnergies {
   double branches = 0.0;         ///< of viscoelastic materials, degraded as the moderate one
   bool branches_drive = false;   ///< the damage
   double locked = 0.0;           ///< stored in gaps beyond half the work of their tractions, likewise
-  double compression = 0.0;      ///< W_c, of the moderate one, where compression does not drive the damage
-  bool is_compressed = false;    ///< there, and J < 1
+  double dilation = 0.0;         ///< W_c, where compression does not drive the damage
+  double closure = 0.0;          ///< there, the share of it that does not
   double faces = 0.0, of = 1.0;  ///< energy of the faces, at the g with which the displacements were found
   /// Share of the energies of faces, and of what a pressure is lost by faster than W_m, that drives the damage: less
   /// than 1 where branches do not.
@@ -61,71 +72,77 @@ class FiniteCells {
   /// Whether the driving energy is nearly the derivative of the discrete one: a pressure is lost faster than the
   /// stiffness, and branches dissipate.
   bool descends(Index cell) const { return !has_pressure(cell) && !histories_.has(cell); }
-  /// Law of a place at the displacement gradient H and the stiffness factor g. The faces are as stiff as `closure`
-  /// says: 1 where J_e < 1 and the split keeps the bulk modulus, 0 where J_e > 1.
-  FiniteLaw law(FinitePlace at, const Tensor& H, double g, double closure, const FreeDeformation& free = {}) const;
+  /// Law of a place at the displacement gradient H.
+  FiniteLaw law(FinitePlace at, const Tensor& H, const Degraded& left, const FreeDeformation& free = {}) const;
   const FiniteHistories& histories() const { return histories_; }
   void set_own_sides(std::vector<Index> cells) { histories_.set_own_sides(std::move(cells)); }
   /// Begins a step at these histories, which takes `duration` [s]; 0: holds them. Laws and energies are those of it.
   void start_from(const CellHistories& start, double duration) { histories_.start_from(start, duration); }
-  /// Takes the histories of viscoelastic cells, if there are any, with the stiffness factors g, to the deformation of
-  /// now.
-  void advance(const CellMechanics& mechanics, const CellField<double>& g, CellHistories& to);
+  /// Takes the histories of viscoelastic cells, if there are any, to the deformation of now.
+  void advance(const CellMechanics& mechanics, const CellField<Degraded>& left, CellHistories& to);
   /// Heat of the branches of a cell from one history to another while its factor went from g_from to g_to, with what
   /// damage frees of them without being driven by it [J].
   double dissipation(Index cell, const CellHistories& from, double g_from, const CellHistories& to, double g_to) const;
-  /// The closure at the volume J_e, which changes over a range of J_e: the stiffness of the faces may not jump.
-  double closure(Index cell, const CellMechanics& mechanics) const;
+  /// J_e - 1 of a cell, from its mean stress, whose crack is closed where that is negative. None where the split does
+  /// not keep compression.
+  std::optional<double> closing_change(Index cell, const CellMechanics& mechanics, const Degraded& left) const;
+  /// Energy [J] by which the closure errs where the volume has changed so.
+  double closing_energy(Index cell, double change, const Degraded& left) const;
 
   /// Energies of a cell by its mean gradient and by its faces, the work of whose tractions comes on top (momentum.h).
   /// g: factor with which the displacements were found; now: histories there, none of elastic cells.
-  FiniteEnergies energies(Index cell, const CellMechanics& mechanics, double g, const CellHistories& now = {}) const;
+  FiniteEnergies energies(Index cell, const CellMechanics& mechanics, const Degraded& left,
+                          const CellHistories& now = {}) const;
   /// Energy that a cell stores [J].
   double stored_energy(Index cell, const FiniteEnergies& at, double g) const;
   /// Derivative of the stored energy by g, per volume, and its own derivative by g [J/m^3].
   DrivingAt driving_energy(Index cell, const FiniteEnergies& at, double g) const;
 
   /// The mean gradient H with the stretch across a plate at which it has no stress across it; else H.
-  Tensor thinned(Index cell, const CellMechanics& mechanics, double g) const;
+  Tensor thinned(Index cell, const CellMechanics& mechanics, const Degraded& left) const;
 
   /// Biot stress [Pa] of the undamaged material at the mean gradient; pressures that damage has relaxed count as they
   /// are.
-  Tensor undamaged_biot_stress(Index cell, const CellMechanics& mechanics, double g) const;
+  Tensor undamaged_biot_stress(Index cell, const CellMechanics& mechanics, const Degraded& left) const;
 
   /// Derivative of the stored energy by F* at constant displacements, V dW/dF* [J], with its sign changed. It is
   /// computed from the tractions as far as they are known: eigenstrains that grow by d eps* supply minus this times d
   /// eps*.
-  Tensor eigenstrain_moment(Index cell, const CellMechanics& mechanics, double g, const Vector& plane_normal) const;
+  Tensor eigenstrain_moment(Index cell, const CellMechanics& mechanics, const Degraded& left,
+                            const Vector& plane_normal) const;
 
   /// Cauchy stress [Pa] from the first Piola-Kirchhoff stress of the tractions, with that across a plane mesh.
-  Tensor cauchy_stress(Index cell, const CellMechanics& mechanics, double g, const Vector& plane_normal) const;
+  Tensor cauchy_stress(Index cell, const CellMechanics& mechanics, const Degraded& left,
+                       const Vector& plane_normal) const;
 
  private:
-  // Undamaged, at some F_e - 1 = H: W_m, the network's, c U, that of branches, and where the split asks for it W_c of
-  // W_m and whether J < 1.
+  // Undamaged, at some F_e - 1 = H: W_m, the network's, c U, that of branches, J_e - 1, and where compression does not
+  // drive the damage W_c and the share of it that does not: the closure, or with `hybrid` 1 where J < 1.
   struct Parts {
-    PotentialAt moderate, network, pressure{}, compression{}, branches{};
-    bool is_compressed = false;
+    PotentialAt moderate, network, pressure{}, dilation{}, branches{};
+    double change = 0.0, closure = 0.0;
   };
-  Parts parts(FinitePlace at, const Tensor& H, double change) const;
-  Parts parts(FinitePlace at, const Tensor& H) const { return parts(at, H, volume_change(H)); }
-  Parts parts(Index cell, const CellMechanics& mechanics, const Tensor& H) const;
+  Parts parts(FinitePlace at, const Tensor& H, double change, double closure) const;
+  Parts parts(FinitePlace at, const Tensor& H, double closure) const { return parts(at, H, volume_change(H), closure); }
+  Parts parts(Index cell, const CellMechanics& mechanics, const Tensor& H, double closure) const;
   FiniteEnergies mean_energies(Index cell, const CellMechanics& mechanics, const Parts& at) const;
+  Tensor beside_law(Index cell, const CellMechanics& mechanics, const Parts& at, const Tensor& P, double g) const;
   double beside_mean(Index cell, const CellMechanics& mechanics, const Parts& at, double g) const;
   bool is_plane_stress() const { return !across_.isZero(); }
   static FreeDeformation free_deformation(Index cell, const CellMechanics& mechanics);
   Tensor elastic(const Tensor& H, const FreeDeformation& free) const;
-  Tensor thinned_elastic(Index cell, const CellMechanics& mechanics, double g) const;
+  Tensor thinned_elastic(Index cell, const CellMechanics& mechanics, const Degraded& left) const;
   PotentialAt of_branches(FinitePlace at, const Tensor& H) const;
-  FiniteLaw solid_law(FinitePlace at, const Tensor& H, double g, double closure) const;
+  FiniteLaw solid_law(FinitePlace at, const Tensor& H, const Degraded& left) const;
   void add_branches(FinitePlace at, const Tensor& H, const FiniteShares& by, FiniteLaw& law) const;
-  FiniteLaw plane_stress_law(FinitePlace at, const Tensor& H, double g) const;
-  Tensor thinned(FinitePlace at, const Tensor& H, double g) const;
-  Tensor true_deformation(Index cell, const Tensor& H, double g) const;
-  Tensor traction_stress(Index cell, const CellMechanics& mechanics, double g, const Vector& plane_normal) const;
+  FiniteLaw plane_stress_law(FinitePlace at, const Tensor& H, const Degraded& left) const;
+  Tensor thinned(FinitePlace at, const Tensor& H, const Degraded& left) const;
+  Tensor true_deformation(Index cell, const Tensor& H, const Degraded& left) const;
+  Tensor traction_stress(Index cell, const CellMechanics& mechanics, const Degraded& left,
+                         const Vector& plane_normal) const;
   bool keeps_compression(Index cell) const { return split_[cell]->keeps_compression; }
-  // Whether the split keeps a cell's parts or energies from the degradation.
-  bool keeps(Index cell, const auto& at) const { return at.is_compressed && keeps_compression(cell); }
+  // Share of a cell's W_c that the split keeps from the degradation.
+  double kept(Index cell, const auto& at) const { return keeps_compression(cell) ? at.closure : 0.0; }
   PotentialAt damaged(Index cell, const Parts& at, const FiniteShares& by, double g) const;
 
   const Mesh& mesh_;

@@ -50,7 +50,7 @@ struct FiniteShares {
 };
 
 /// The shares in W = g (w W_m + (1 - w) N) + w r c U, w and r being functions of g and N the network's energy. A split
-/// that keeps compression adds (1 - g) W_c, and keeps c U where J < 1.
+/// that keeps compression adds closure (1 - g) W_c, and keeps this share of c U.
 FiniteShares finite_shares(const HyperelasticMaterial& material, double g);
 
 /// Potential of broken cells, mu/2 (F:F - 3), at the displacement gradient H.

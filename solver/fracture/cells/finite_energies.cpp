@@ -8,6 +8,15 @@
 
 namespace pfdm {
 
+// What a stress of the tractions is beyond that of the mean gradient; zero across a plane mesh, which has no faces
+// there.
+Tensor FiniteCells::beside_law(Index cell, const CellMechanics& mechanics, const Parts& at, const Tensor& P,
+                               double g) const {
+  const Tensor elastic_stress = damaged(cell, at, finite_shares(*material_[cell], g), g).stress;
+  const Tensor excess = P - free_deformation(cell, mechanics).stress(elastic_stress);
+  return excess - plane_normal_.dot(excess * plane_normal_) * plane_normal_ * plane_normal_.transpose();
+}
+
 // Half the work of what the tractions' stress is beyond that of the mean gradient, of cells with a pressure, and of all
 // cells of a body with eigenstrains, whose stress may vary much within thin cells around what does not fit [J/m^3]:
 // 1/2 (P - P(H)):(F_e - R) F*, R being the rotation in F_e. In bonded layers that are a few cells thick it is 1 to 5 %
@@ -19,11 +28,9 @@ double FiniteCells::beside_mean(Index cell, const CellMechanics& mechanics, cons
   if (model_.in_cell(mesh_, cell).damageable) return 0.0;
   Parts moderate = at;
   moderate.pressure = {};
-  const Tensor& P = is_pressed ? mechanics.moderate_stress[cell] : mechanics.stress[cell];
   const FreeDeformation free = free_deformation(cell, mechanics);
-  const Tensor elastic_stress = damaged(cell, moderate, finite_shares(*material_[cell], g), g).stress;
-  Tensor excess = P - free.stress(elastic_stress);
-  excess -= plane_normal_.dot(excess * plane_normal_) * plane_normal_ * plane_normal_.transpose();  // no faces there
+  const Tensor excess =
+      beside_law(cell, mechanics, moderate, is_pressed ? mechanics.moderate_stress[cell] : mechanics.stress[cell], g);
   const Tensor F_e = Tensor::Identity() + elastic(mechanics.gradient[cell], free);
   return 0.5 * contract(excess, stretch_part(F_e) * free.stretch());
 }
@@ -39,9 +46,10 @@ double FiniteCells::dissipation(Index cell, const CellHistories& from, double g_
 
 // The moments of tractions in cells without a pressure count in the account alone: the rotation of the whole body is in
 // them, which cannot drive the damage of a cell.
-FiniteEnergies FiniteCells::energies(Index cell, const CellMechanics& mechanics, double g,
+FiniteEnergies FiniteCells::energies(Index cell, const CellMechanics& mechanics, const Degraded& left,
                                      const CellHistories& now) const {
-  const Parts at = parts(cell, mechanics, thinned_elastic(cell, mechanics, g));
+  const Parts at = parts(cell, mechanics, thinned_elastic(cell, mechanics, left), left.closure);
+  const double g = left.g;
   const double V = mesh_.cell_volume[cell],
                moments = mechanics.moment_work.size() > 0 ? mechanics.moment_work[cell] : 0.0;
   const bool drive = has_pressure(cell) || !model_.in_cell(mesh_, cell).damageable;
@@ -65,16 +73,16 @@ FiniteEnergies FiniteCells::mean_energies(Index cell, const CellMechanics& mecha
           .pressure = volume * at.pressure.energy,
           .branches = volume * at.branches.energy,
           .branches_drive = material_[cell]->drive() == PronyDrive::stored,
-          .compression = volume * at.compression.energy,
-          .is_compressed = at.is_compressed};
+          .dilation = volume * at.dilation.energy,
+          .closure = at.closure};
 }
 
 double FiniteCells::stored_energy(Index cell, const FiniteEnergies& at, double g) const {
   const FiniteShares by = finite_shares(*material_[cell], g);
-  const bool whole = keeps(cell, at);
-  const double kept = whole ? (1.0 - g) * at.compression : 0.0;
+  const double kept = this->kept(cell, at);
   const double density = by.moderate.value * (at.moderate + at.branches + at.locked) + by.network.value * at.network +
-                         kept + (whole ? 1.0 : by.pressure.value) * at.pressure + at.faces + at.moments;
+                         kept * (1.0 - g) * at.dilation +
+                         (by.pressure.value + kept * (1.0 - by.pressure.value)) * at.pressure + at.faces + at.moments;
   return mesh_.cell_volume[cell] * density;
 }
 
@@ -83,70 +91,75 @@ double FiniteCells::stored_energy(Index cell, const FiniteEnergies& at, double g
 // less by compression it must not end at J = 1: its damage would go to and fro.
 DrivingAt FiniteCells::driving_energy(Index cell, const FiniteEnergies& at, double g) const {
   const FiniteShares by = finite_shares(*material_[cell], g);
-  const bool whole = keeps(cell, at);
-  const FiniteShare off = whole ? FiniteShare{.value = g, .slope = 1.0} : by.moderate;
-  const double pressure = at.is_compressed ? 0.0 : at.pressure, faces = whole ? 0.0 : at.drive * at.faces / at.of;
+  const double kept = this->kept(cell, at);
+  const FiniteShare off = keeps_compression(cell) ? FiniteShare{.value = g, .slope = 1.0} : by.moderate;
+  const double pressure = (1.0 - at.closure) * at.pressure, faces = (1.0 - kept) * at.drive * at.faces / at.of;
   const double moderate = at.moderate + (at.branches_drive ? at.branches : 0.0);
   const auto driving = [&](double whole_slope, double as_moderate) {
     return whole_slope - (1.0 - at.drive) * (whole_slope - as_moderate);
   };
   const FiniteShare& of_pressure = by.pressure;
   const FiniteShares::Slope& as_moderate = by.pressure_as_moderate;
-  const double value = by.moderate.slope * moderate + by.network.slope * at.network - off.slope * at.compression +
-                       driving(of_pressure.slope, as_moderate.slope) * pressure + faces;
+  const double value = by.moderate.slope * moderate + by.network.slope * at.network -
+                       off.slope * at.closure * at.dilation + driving(of_pressure.slope, as_moderate.slope) * pressure +
+                       faces;
   if (value <= 0.0) return {};
   return {.value = value,
           .slope = by.moderate.curvature * moderate + by.network.curvature * at.network -
-                   off.curvature * at.compression + driving(of_pressure.curvature, as_moderate.curvature) * pressure};
+                   off.curvature * at.closure * at.dilation +
+                   driving(of_pressure.curvature, as_moderate.curvature) * pressure};
 }
 
-Tensor FiniteCells::undamaged_biot_stress(Index cell, const CellMechanics& mechanics, double g) const {
-  const Tensor H = thinned_elastic(cell, mechanics, g);
-  const Parts at = parts(cell, mechanics, H);
+Tensor FiniteCells::undamaged_biot_stress(Index cell, const CellMechanics& mechanics, const Degraded& left) const {
+  const Tensor H = thinned_elastic(cell, mechanics, left);
+  const Parts at = parts(cell, mechanics, H, left.closure);
+  const double g = left.g;
   const FiniteShares by = finite_shares(*material_[cell], g);
+  const double kept = this->kept(cell, at), share = by.pressure.value / g;
   const Tensor whole = (by.moderate.value * at.moderate.stress + by.network.value * at.network.stress) / g;
-  return biot_stress(H, whole + (keeps(cell, at) ? 1.0 : by.pressure.value / g) * at.pressure.stress);
+  return biot_stress(H, whole + (share + kept * (1.0 - share)) * at.pressure.stress);
 }
 
 // The deformation gradient for the Cauchy stress. A broken sheet, a network, has next to no thickness: it counts as
 // thick as a sound one at the same stretch, and where it is turned inside out as thick as at rest.
-Tensor FiniteCells::true_deformation(Index cell, const Tensor& H, double g) const {
-  Tensor thin = Tensor::Identity() + thinned({cell}, H, g);
+Tensor FiniteCells::true_deformation(Index cell, const Tensor& H, const Degraded& left) const {
+  Tensor thin = Tensor::Identity() + thinned({cell}, H, left);
   if (!is_plane_stress()) return thin;
   const Tensor nn = across_ * across_.transpose();
   const bool is_turned = volume_change(H - contract(nn, H) * nn) <= -1.0;
-  const double sound = is_turned ? 1.0 : 1.0 + contract(nn, thinned({cell}, H, 1.0));
+  const double sound = is_turned ? 1.0 : 1.0 + contract(nn, thinned({cell}, H, Degraded{}));
   return thin + std::max(sound - contract(nn, thin), 0.0) * nn;
 }
 
 // First Piola-Kirchhoff.
-Tensor FiniteCells::traction_stress(Index cell, const CellMechanics& mechanics, double g,
+Tensor FiniteCells::traction_stress(Index cell, const CellMechanics& mechanics, const Degraded& left,
                                     const Vector& plane_normal) const {
   const Tensor& P = mechanics.stress[cell];
   if (plane_normal.isZero()) return P;
   const Tensor across = plane_normal * plane_normal.transpose();
-  const Parts at = parts(cell, mechanics, thinned_elastic(cell, mechanics, g));
+  const Parts at = parts(cell, mechanics, thinned_elastic(cell, mechanics, left), left.closure);
+  const double g = left.g;
   const Tensor of_law =
       free_deformation(cell, mechanics).stress(damaged(cell, at, finite_shares(*material_[cell], g), g).stress);
   return P + across * (of_law - P) * across;
 }
 
 // The energy of the faces is not one of F*.
-Tensor FiniteCells::eigenstrain_moment(Index cell, const CellMechanics& mechanics, double g,
+Tensor FiniteCells::eigenstrain_moment(Index cell, const CellMechanics& mechanics, const Degraded& left,
                                        const Vector& plane_normal) const {
   const FiniteEnergies mean =
-      mean_energies(cell, mechanics, parts(cell, mechanics, thinned_elastic(cell, mechanics, g)));
-  const Tensor P = traction_stress(cell, mechanics, g, plane_normal);
-  const double energy = stored_energy(cell, mean, g) / mesh_.cell_volume[cell];
-  const Tensor slope = free_deformation(cell, mechanics).energy_slope(energy, P, thinned(cell, mechanics, g));
+      mean_energies(cell, mechanics, parts(cell, mechanics, thinned_elastic(cell, mechanics, left), left.closure));
+  const Tensor P = traction_stress(cell, mechanics, left, plane_normal);
+  const double energy = stored_energy(cell, mean, left.g) / mesh_.cell_volume[cell];
+  const Tensor slope = free_deformation(cell, mechanics).energy_slope(energy, P, thinned(cell, mechanics, left));
   return -mesh_.cell_volume[cell] * symmetric_part(slope);
 }
 
-Tensor FiniteCells::cauchy_stress(Index cell, const CellMechanics& mechanics, double g,
+Tensor FiniteCells::cauchy_stress(Index cell, const CellMechanics& mechanics, const Degraded& left,
                                   const Vector& plane_normal) const {
-  const Tensor P = traction_stress(cell, mechanics, g, plane_normal);
+  const Tensor P = traction_stress(cell, mechanics, left, plane_normal);
   const FreeDeformation free = free_deformation(cell, mechanics);
-  const Tensor F = true_deformation(cell, elastic(mechanics.gradient[cell], free), g) * free.stretch();
+  const Tensor F = true_deformation(cell, elastic(mechanics.gradient[cell], free), left) * free.stretch();
   return symmetric_part(P * F.transpose() / F.determinant());
 }
 

@@ -14,11 +14,12 @@ struct FiniteLaw {
   /// Moduli of the faces (finite_tractions.h).
   IsotropicElasticity face;
   double swelling = 1.0;  ///< factor of mu/J^2 in their stiffness: 0 of a law that is linear in F
-  /// Volumetric law of cells with a pressure, else null: J by the pressure q, with the fractions of its modulus that
-  /// are left where q > 0 and where q < 0.
+  /// Volumetric law of cells with a pressure, else null: J by the pressure q, with the fraction of its modulus that is
+  /// left.
   const HyperelasticMaterial* pressure = nullptr;
-  double open = 1.0, closed = 1.0;
+  double pressure_share = 1.0;
   double pressure_modulus = 0.0;  ///< of it, undamaged, that a change of volume meets in the step [Pa]
+  double pressure_kept = 0.0;     ///< what a closed crack keeps beyond its share [Pa]
   double pressure_left = 0.0;     ///< of q: minus what it is at J = 1 by earlier changes [Pa]; of viscoelastic cells
   double free_change = 0.0;       ///< of their volume, J* - 1 of the free deformation F*
   double sound_share = 1.0;       ///< mu of the undamaged faces, with F* and branches, over that of the elasticity
@@ -29,8 +30,8 @@ struct FiniteLaw {
   } memory{};
 
   VolumeAt volume(double q) const {
-    const double share = q > 0.0 ? open : closed;
-    const VolumeAt elastic = pressure->volume(q + share * pressure_left, share * pressure_modulus);
+    const VolumeAt elastic =
+        pressure->volume(q + pressure_share * pressure_left, pressure_share * pressure_modulus + pressure_kept);
     const double free = 1.0 + free_change;
     return {free_change + free * elastic.change, free * elastic.slope};
   }

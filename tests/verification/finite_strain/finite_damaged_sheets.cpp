@@ -53,14 +53,14 @@ TEST(FinitePlaneStress, OneEnergyDrivesTheDamageAndHasTheStress) {
         const FiniteCells cells(mesh, model);
         const Tensor H = Tensor(l.asDiagonal()) + shear - Tensor::Identity();
         const auto stored = [&](const Tensor& at, double g) {
-          return cells.stored_energy(0, cells.energies(0, stretched_cell(at), g), g) / volume;
+          return cells.stored_energy(0, cells.energies(0, stretched_cell(at), {g}), g) / volume;
         };
         for (const double g : {0.5, 2e-2, 2.9e-3, 1e-3, 3.5e-4, 1e-4, 1e-6}) {
           const double e = 1e-4 * g, slope = (stored(H, g + e) - stored(H, g - e)) / (2.0 * e);
-          const double driving = cells.driving_energy(0, cells.energies(0, stretched_cell(H), g), g).value;
+          const double driving = cells.driving_energy(0, cells.energies(0, stretched_cell(H), {g}), g).value;
           of_g = std::max(of_g, std::abs(driving - std::max(slope, 0.0)) / std::abs(slope));
           const Tensor direction = Vector(1.0, 0.7, 0.0).asDiagonal().toDenseMatrix() + shear,
-                       P = cells.law({0}, H, g, 0.0).stress;
+                       P = cells.law({0}, H, {g}).stress;
           const double step = 1e-5, change = stored(H + step * direction, g) - stored(H - step * direction, g);
           of_stress = std::max(
               of_stress, std::abs(change / (2.0 * step) - contract(P, direction)) / (P.norm() * direction.norm()));
@@ -88,8 +88,8 @@ TEST(FinitePlaneStress, TheCauchyStressOfABrokenSheetIsSmall) {
           const Tensor H = F - Tensor::Identity();
           if (F.determinant() < 0.0 && d < 0.995) continue;
           CellMechanics mechanics = stretched_cell(H);
-          mechanics.stress = CellField<Tensor>(1, cells.law({0}, H, g, 0.0).stress);
-          const Tensor stress = cells.cauchy_stress(0, mechanics, g, Vector::UnitZ());
+          mechanics.stress = CellField<Tensor>(1, cells.law({0}, H, {g}).stress);
+          const Tensor stress = cells.cauchy_stress(0, mechanics, {g}, Vector::UnitZ());
           ASSERT_TRUE(stress.allFinite()) << law << " " << nu << " " << d << "\n" << F;
           most = std::max(most, stress.norm() / (g * model.regions[0].elasticity.mu));
         }
