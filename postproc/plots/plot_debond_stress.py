@@ -26,7 +26,7 @@ TOUGHNESS = "regions.interface.toughness_J_per_m2"
 
 def run_folders(sweep):
     text = sweep.read_text(encoding="utf-8")
-    return [sweep.parent / folder for folder in re.findall(r"^#\s*run \d+: (runs/\S+)", text, re.MULTILINE)]
+    return [sweep.parent / folder for folder in re.findall(r"^#\s*run \d+: (runs/[^\s,]+)", text, re.MULTILINE)]
 
 
 def has_jumped(curve, i):

@@ -1,11 +1,14 @@
-"""The notebook cases/python/study.ipynb, cell by cell, pictures and a film of one of its runs, and the list of pictures of cases.
+"""The notebook cases/python/study.ipynb, cell by cell, pictures and a film of one of its runs, the picture of a sweep, and the
+list of pictures of cases.
 
 Exit status 77 where matplotlib, Pillow or VTK's Python is not installed.
 """
 
+import csv
 import json
 import os
 import pathlib
+import re
 import shutil
 import subprocess
 import sys
@@ -57,6 +60,30 @@ class Notebook(unittest.TestCase):
         with Image.open(picture) as image:
             self.assertEqual(image.width, 600)
             self.assertGreater(len(image.convert("RGB").getcolors(1 << 20)), 50)  # shaded, not a plain area
+
+
+class PicturesOfSweeps(unittest.TestCase):
+    def test_are_drawn_from_the_table_that_the_program_writes(self):
+        text = (checkout / "cases/glass_bead_radius/case.toml").read_text(encoding="utf-8")
+        for name in ("values", "polar"):
+            self.assertIn(f"\n{name} = [", text)
+        text = re.sub(r'values = \[("[^"]* J/m\^2", |"[^"]* MPa", ){3}', "values = [", text)  # the last two of five
+        text = re.sub(r"(polar = .*)cells = 90", r"\1cells = 30", text)
+        with tempfile.TemporaryDirectory() as name:
+            folder = pathlib.Path(name)
+            (folder / "case.toml").write_text(text, encoding="utf-8")
+            subprocess.run([os.environ["PFDM_PROGRAM"], "sweep", folder, "--quiet"], check=True)
+            draw = [sys.executable, checkout / "postproc/plots/plot_debond_stress.py", "whole"]
+            subprocess.run([*draw, folder / "results/sweep.csv", "--output", folder / "stress.png"], check=True)
+            with open(folder / "stress.csv", newline="", encoding="utf-8") as table:
+                rows = list(csv.DictReader(table))
+            with Image.open(folder / "stress.png") as picture:
+                self.assertEqual(picture.format, "PNG")
+        self.assertEqual([round(float(row["radius_over_l_ch"])) for row in rows], [5, 10])
+        larger, smaller = (float(row["debond_stress_over_strength"]) for row in reversed(rows))
+        self.assertGreater(larger, 0.515)  # ft over the stress concentration at the pole, the limit of a large bead
+        self.assertGreater(smaller, larger)
+        self.assertLess(smaller, 0.7)
 
 
 class PicturesOfCases(unittest.TestCase):
