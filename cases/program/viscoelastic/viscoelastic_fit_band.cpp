@@ -1,11 +1,14 @@
 #include "cases/program/viscoelastic/viscoelastic_fit_band.h"
 
 #include "physics/materials/prony_response.h"
+#include "solver/point/allowed_spectra.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <optional>
 #include <string>
@@ -16,7 +19,8 @@ namespace pfdm {
 namespace {
 
 constexpr double points_per_decade = 10.0;
-constexpr double step = 1e-5;  // of the differences, relative
+constexpr double step = 1e-5;           // of the differences, relative
+constexpr double least_outside = 0.01;  // of half the width of an interval: the search for its ends
 
 /// Storage and loss modulus in tension, then in shear [Pa]; the loss is 0 without branches.
 using Moduli = std::array<double, 4>;
@@ -44,6 +48,10 @@ struct Reach {
   double distance() const { return 2.0 * step * (is_log ? 1.0 : value); }
 };
 
+double half_width(const FittedParameter& p) {
+  return 0.5 * (p.log_scale ? std::log(p.upper / p.lower) : p.upper - p.lower);
+}
+
 /// Nothing where an interval is not known.
 std::optional<std::vector<Reach>> reaches_of(const FitFindings& findings) {
   std::vector<Reach> reaches;
@@ -51,7 +59,7 @@ std::optional<std::vector<Reach>> reaches_of(const FitFindings& findings) {
     return std::nullopt;
   for (const FittedParameter& p : findings.parameters) {
     Reach reach{.value = p.estimate, .is_log = p.log_scale};
-    reach.by = 0.5 * (p.log_scale ? std::log(p.upper / p.lower) : p.upper - p.lower);
+    reach.by = half_width(p);
     if (!std::isfinite(reach.by)) return std::nullopt;
     reaches.push_back(reach);
   }
@@ -84,36 +92,133 @@ Moduli widths_at(const ViscoelasticFit& fit, const std::vector<Reach>& reaches, 
   return widths;
 }
 
+/// Ends of the four moduli.
+struct Ends {
+  Moduli lower{}, upper{};
+};
+
+Ends to_first_order(const ViscoelasticFit& fit, const std::vector<Reach>& reaches, const Eigen::MatrixXd& correlation,
+                    double angular_frequency) {
+  const Moduli at = moduli_at(fit.law, angular_frequency),
+               widths = widths_at(fit, reaches, correlation, angular_frequency);
+  Ends ends;
+  for (std::size_t m = 0; m < at.size(); ++m) {
+    ends.lower[m] = at[m] * std::exp(-widths[m]);
+    ends.upper[m] = at[m] * std::exp(widths[m]);
+  }
+  return ends;
+}
+
+Ends of_allowed(const AllowedSpectra& spectra, double allowance, double angular_frequency) {
+  Ends ends;
+  for (std::size_t m = 0; m < ends.lower.size(); ++m) {
+    const auto figure = [&, m](const LawModuli& moduli) {
+      const auto value = complex_modulus(m < 2 ? moduli.young : moduli.shear, angular_frequency);
+      return m % 2 == 0 ? value.real() : value.imag();
+    };
+    const auto lowest = spectra.lowest(figure, allowance), highest = spectra.highest(figure, allowance);
+    ends.lower[m] = std::max(lowest ? lowest->value : 0.0, 0.0);
+    ends.upper[m] = highest ? highest->value : std::numeric_limits<double>::infinity();
+  }
+  return ends;
+}
+
+/// By how much a sum of squares may be above the least: for what the interval of an estimate spans, which holds
+/// Student's t and what correlated residuals widen; 1.96^2 where the noise is known. Zero of a fit without intervals.
+double allowance_of(const ViscoelasticFit& fit, const FitFindings& findings) {
+  double largest = 0.0;
+  if (!is_sound(findings.verdict) || !fit.choice.moduli) return largest;
+  for (std::size_t j = 0; j < findings.parameters.size(); ++j) {
+    const auto i = static_cast<Eigen::Index>(j);
+    const double half = half_width(findings.parameters[j]), variance = fit.result.inverse_normal(i, i);
+    if (std::isfinite(half) && variance > 0.0) largest = std::max(largest, half * half / variance);
+  }
+  return constrained_allowance * largest;
+}
+
+/// How many moduli lie outside of their ends, and by how much of half the width at most.
+struct Outside {
+  std::size_t n = 0;
+  double most = 0.0;
+  void add(const Moduli& at, const Ends& ends) {
+    for (std::size_t m = 0; m < at.size(); ++m) {
+      const double half = 0.5 * (ends.upper[m] - ends.lower[m]),
+                   by = std::max(ends.lower[m] - at[m], at[m] - ends.upper[m]);
+      if (!(by > least_outside * half)) continue;
+      ++n;
+      most = std::max(most, by / half);
+    }
+  }
+};
+
+std::string warning_of(const Outside& outside, std::size_t n_moduli, std::size_t n_branches) {
+  if (outside.n == 0) return "";
+  return fmt::format(
+      "{} of {} moduli over frequency lie outside of their intervals, by up to {:.2g} of half the width: other spectra "
+      "than {} branch{} meet the data better; more of them would lie inside (branches, and times = \"fixed\", in "
+      "[fit])",
+      outside.n, n_moduli, outside.most, n_branches, n_branches == 1 ? "" : "es");
+}
+
+std::string comment_of(bool is_known, bool is_allowed) {
+  if (!is_known) return "without intervals, which would not hold: see the verdict in fit.json";
+  return is_allowed ? "lower, upper: 95 % intervals, of all spectra that the data allow"
+                    : "lower, upper: 95 % intervals, to first order in the estimates";
+}
+
 }  // namespace
 
-CsvTable modulus_band(const ViscoelasticFit& fit, const FitFindings& findings, const TimeWindow& window) {
+ModulusBand modulus_band(const ViscoelasticFit& fit, const FitFindings& findings,
+                         const ViscoelasticExperiments& experiments, std::span<const double> deviations) {
   constexpr std::array names{"young_storage_modulus", "young_loss_modulus", "shear_storage_modulus",
                              "shear_loss_modulus"};
-  const std::vector<double> frequencies = frequencies_in(window);
-  const auto reaches = reaches_of(findings);
+  const std::vector<double> frequencies = frequencies_in(time_window(experiments));
+  const double allowance = allowance_of(fit, findings);
+  std::optional<AllowedSpectra> spectra;
+  if (allowance > 0.0) spectra.emplace(fit, experiments, deviations);
+  const auto reaches = spectra ? std::nullopt : reaches_of(findings);
   std::array<std::vector<double>, 4> estimate, lower, upper;
+  Outside outside;
   for (const double f : frequencies) {
     const double w = 2.0 * std::numbers::pi * f;
     const Moduli at = moduli_at(fit.law, w);
-    const Moduli widths = reaches ? widths_at(fit, *reaches, findings.correlation, w) : Moduli{};
+    Ends ends;
+    if (spectra) {
+      ends = of_allowed(*spectra, allowance, w);
+      outside.add(at, ends);
+    } else if (reaches) {
+      ends = to_first_order(fit, *reaches, findings.correlation, w);
+    }
     for (std::size_t m = 0; m < at.size(); ++m) {
       estimate[m].push_back(at[m]);
-      lower[m].push_back(at[m] * std::exp(-widths[m]));
-      upper[m].push_back(at[m] * std::exp(widths[m]));
+      lower[m].push_back(ends.lower[m]);
+      upper[m].push_back(ends.upper[m]);
     }
   }
-  CsvTable table;
-  table.comments.emplace_back("complex moduli of the fitted law in the window of the data");
-  table.comments.emplace_back(reaches ? "lower, upper: 95 % intervals, to first order in the estimates"
-                                      : "without intervals, which would not hold: see the verdict in fit.json");
-  table.add("frequency_Hz", frequencies);
+  ModulusBand band;
+  band.warning = warning_of(outside, 4 * frequencies.size(), fit.law.shear.size());
+  band.table.comments.emplace_back("complex moduli of the fitted law in the window of the data");
+  band.table.comments.push_back(comment_of(spectra || reaches, spectra.has_value()));
+  band.table.add("frequency_Hz", frequencies);
   for (std::size_t m = 0; m < names.size(); ++m) {
-    table.add(fmt::format("{}_Pa", names[m]), std::move(estimate[m]));
-    if (!reaches) continue;
-    table.add(fmt::format("lower_{}_Pa", names[m]), std::move(lower[m]));
-    table.add(fmt::format("upper_{}_Pa", names[m]), std::move(upper[m]));
+    band.table.add(fmt::format("{}_Pa", names[m]), std::move(estimate[m]));
+    if (!spectra && !reaches) continue;
+    band.table.add(fmt::format("lower_{}_Pa", names[m]), std::move(lower[m]));
+    band.table.add(fmt::format("upper_{}_Pa", names[m]), std::move(upper[m]));
   }
-  return table;
+  return band;
+}
+
+void widen_relaxed_modulus(const ViscoelasticFit& fit, const ViscoelasticExperiments& experiments,
+                           std::span<const double> deviations, FitFindings& findings) {
+  const double allowance = allowance_of(fit, findings);
+  const auto at = std::ranges::find(findings.parameters, "young_modulus", &FittedParameter::name);
+  if (!(allowance > 0.0) || at == findings.parameters.end()) return;
+  const AllowedSpectra spectra(fit, experiments, deviations, {.slower = 1.0});
+  const auto figure = [](const LawModuli& moduli) { return moduli.young.relaxed; };
+  const auto lowest = spectra.lowest(figure, allowance), highest = spectra.highest(figure, allowance);
+  at->lower = std::min(at->lower, std::max(lowest ? lowest->value : 0.0, at->lower_bound));
+  at->upper = std::max(at->upper, std::min(highest ? highest->value : at->upper_bound, at->upper_bound));
 }
 
 }  // namespace pfdm

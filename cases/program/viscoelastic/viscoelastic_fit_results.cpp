@@ -121,7 +121,10 @@ FitFindings write_fit_results(const std::filesystem::path& results, const CaseFi
     write_csv(results / fit_curve_file(test.name), fitted_curve(test, found.fit.law));
     report.experiments.push_back(misfit_of(test, found.fit.law));
   }
-  write_csv(results / modulus_band_file, modulus_band(found.fit, report.found, time_window(fit.experiments)));
+  const ModulusBand band = modulus_band(found.fit, report.found, fit.experiments, found.deviations);
+  write_csv(results / modulus_band_file, band.table);
+  if (!band.warning.empty()) report.found.warnings.push_back(band.warning);
+  widen_relaxed_modulus(found.fit, fit.experiments, found.deviations, report.found);
   write_file(
       results / "case.fitted.toml",
       with_table(file, "material", "# estimated by pfdm fit\n[material]\n" + to_toml(found.fit.law) + "\n", results));

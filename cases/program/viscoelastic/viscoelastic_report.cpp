@@ -132,6 +132,16 @@ Columns pairs_of(const CsvTable& curve, std::initializer_list<std::string_view> 
   return columns;
 }
 
+/// Ends of intervals that a logarithmic axis can show: the data may allow a loss modulus of zero, or any.
+std::vector<double> shown_end(const CsvTable& table, const std::string& end, const std::string& column) {
+  constexpr double farthest = 10.0;
+  std::vector<double> ends = table.column(end + column);
+  const std::vector<double>& values = table.column(column);
+  for (std::size_t i = 0; i < ends.size(); ++i)
+    ends[i] = std::clamp(ends[i], values[i] / farthest, values[i] * farthest);
+  return ends;
+}
+
 /// Storage and loss modulus of the fit, "young" or "shear", with their 95 % bands where they are known.
 Chart moduli_of_fit(const CsvTable& table, const std::string& which, const std::string& letter) {
   const std::string storage = which + "_storage_modulus_Pa", loss = which + "_loss_modulus_Pa";
@@ -142,13 +152,13 @@ Chart moduli_of_fit(const CsvTable& table, const std::string& which, const std::
   const DisplayUnit unit = unit_of_columns(table, columns, "Pa");
   for (int k = 0; is_known && k < 2; ++k) {
     const std::string& column = columns[static_cast<std::size_t>(k)].first;
-    if (!(std::ranges::min(table.column("lower_" + column)) > 0.0)) continue;
+    if (!(std::ranges::min(table.column(column)) > 0.0)) continue;
     chart.series.push_back({.label = "",
                             .x = table.column("frequency_Hz"),
-                            .y = in_unit(table.column("lower_" + column), unit),
+                            .y = in_unit(shown_end(table, "lower_", column), unit),
                             .style = SeriesStyle::band,
                             .colour = k,
-                            .upper = in_unit(table.column("upper_" + column), unit)});
+                            .upper = in_unit(shown_end(table, "upper_", column), unit)});
   }
   return chart;
 }

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <complex>
 #include <filesystem>
+#include <fstream>
 #include <string>
 #include <vector>
 
@@ -35,7 +36,8 @@ Storage storage_by_hand(const nlohmann::json& parameters, double w) {
   return storage;
 }
 
-TEST(ViscoelasticBand, IsThatOfTheIntervalsAndCorrelations) {
+// All spectra that the data allow are more than those of as many branches as the fit has.
+TEST(ViscoelasticBand, HoldsWhatIntervalsAndCorrelationsOfItsBranchesLeaveOpen) {
   const BulkFitCase fit;
   ASSERT_EQ(run({"fit", fit.directory.path().string(), "--strict"}).status, 0);
   const auto json = nlohmann::json::parse(content_of(fit.directory.results() / "fit.json"));
@@ -50,7 +52,7 @@ TEST(ViscoelasticBand, IsThatOfTheIntervalsAndCorrelations) {
     for (std::size_t a = 0; a < parameters.size(); ++a)
       for (std::size_t b = 0; b < parameters.size(); ++b) {
         const auto reach = [&](std::size_t j) {
-          return 0.5 * std::log(parameters[j]["upper"].get<double>() / parameters[j]["lower"].get<double>());
+          return 1.96 * parameters[j]["standard_error"].get<double>() / parameters[j]["estimate"].get<double>();
         };
         square += storage.slopes[a] * reach(a) * json["correlation"][a][b].get<double>() * reach(b) * storage.slopes[b];
       }
@@ -58,13 +60,14 @@ TEST(ViscoelasticBand, IsThatOfTheIntervalsAndCorrelations) {
     EXPECT_NEAR(band.column("shear_storage_modulus_Pa")[i], storage.value, 1e-9 * storage.value);
     const double lower = band.column("lower_shear_storage_modulus_Pa")[i],
                  upper = band.column("upper_shear_storage_modulus_Pa")[i];
-    EXPECT_NEAR(0.5 * std::log(upper / lower), half, 1e-4 * half);
+    EXPECT_GT(0.5 * std::log(upper / lower), 0.95 * half);
+    EXPECT_LT(0.5 * std::log(upper / lower), 4.0 * half);
     double truth = true_series.relaxed.mu;
     for (const auto& [mu, tau] : true_series.shear) truth += mu * std::pow(w * tau, 2) / (1.0 + std::pow(w * tau, 2));
     n_held += lower <= truth && truth <= upper ? 1 : 0;
     EXPECT_LT(half, 0.02);  // of branches that are known within 5 %
   }
-  EXPECT_GT(n_held, band.n_rows() / 2);
+  EXPECT_GT(n_held, band.n_rows() * 3 / 4);
 }
 
 TEST(ViscoelasticBand, IsWithheldFromAFitThatIsNotSound) {
@@ -136,6 +139,49 @@ TEST(ViscoelasticBand, OfOneFrequencyHasOneRow) {
 /// A file of the shipped case.
 CsvTable shipped_table(const std::string& file) { return read_csv(fs::path(PFDM_CASES_DIR) / "binder_rates" / file); }
 
+/// How many frequencies of a fit's band hold the true storage and loss modulus of the shipped case.
+struct Held {
+  std::size_t storage = 0, loss = 0, of = 0;
+};
+Held held_by(const CsvTable& band) {
+  const CsvTable truth = shipped_table("data/truth_complex_modulus.csv");
+  const std::vector<double>& at = truth.column("frequency_Hz");
+  const auto holds = [&](std::size_t i, const std::string& modulus) {
+    const double f = band.column("frequency_Hz")[i];
+    const std::vector<double>& value = truth.column("true_" + modulus);
+    const auto k = static_cast<std::size_t>(std::ranges::upper_bound(at, f) - at.begin());
+    const double share = std::log(f / at[k - 1]) / std::log(at[k] / at[k - 1]);
+    const double due = value[k - 1] * std::pow(value[k] / value[k - 1], share);
+    return band.column("lower_" + modulus)[i] <= due && due <= band.column("upper_" + modulus)[i];
+  };
+  Held held{.of = band.n_rows()};
+  for (std::size_t i = 0; i < band.n_rows(); ++i) {
+    held.storage += holds(i, "shear_storage_modulus_Pa") ? 1 : 0;
+    held.loss += holds(i, "shear_loss_modulus_Pa") ? 1 : 0;
+  }
+  return held;
+}
+
+// A continuous spectrum that no number of branches is: the band holds it also with the fewest branches, of which bands
+// to first order in the branches held 40 and 38 of 59.
+TEST(ViscoelasticBand, OfFewBranchesHoldsAContinuousSpectrum) {
+  const TemporaryCase place("");
+  const fs::path copy = place.path() / "binder_rates";
+  fs::copy(fs::path(PFDM_CASES_DIR) / "binder_rates", copy, fs::copy_options::recursive);
+  fs::remove_all(copy / "results");
+  std::string text = replaced(content_of(copy / "case.toml"), "times = \"fixed\"", "times = \"free\"");
+  std::ofstream(copy / "case.toml") << replaced(std::move(text), "branches = [12, 12]", "branches = [1, 9]");
+  ASSERT_EQ(run({"fit", copy.string(), "--strict", "--quiet"}).status, 0);
+  const auto json = nlohmann::json::parse(content_of(copy / "results/fit.json"));
+  EXPECT_LE(json["parameters"].size(), 15u);
+  const Held held = held_by(read_csv(copy / "results/fit_complex_modulus.csv"));
+  EXPECT_GE(held.storage, 54u);
+  EXPECT_GE(held.loss, 54u);
+  // At rest: of what 1,000 s leave of the shear modulus 8 % relax later.
+  EXPECT_LE(json["parameters"][0]["lower"].get<double>(), 1.1992e6);
+  EXPECT_GE(json["parameters"][0]["upper"].get<double>(), 1.1992e6);
+}
+
 // The README's figures: 56 of 59 frequencies hold the truth; the fifth rate and the block are 0.33 % off.
 TEST(ViscoelasticBand, OfTheShippedBinderHoldsItsSpectrum) {
   const TemporaryCase place("");
@@ -145,23 +191,10 @@ TEST(ViscoelasticBand, OfTheShippedBinderHoldsItsSpectrum) {
   ASSERT_EQ(run({"fit", copy.string(), "--strict", "--quiet"}).status, 0);
   const auto json = nlohmann::json::parse(content_of(copy / "results/fit.json"));
   EXPECT_EQ(json["parameters"].size(), 12u);
-  const CsvTable band = read_csv(copy / "results/fit_complex_modulus.csv"),
-                 truth = shipped_table("data/truth_complex_modulus.csv");
-  std::size_t n_held = 0, n = 0;
-  for (std::size_t i = 0; i < band.n_rows(); ++i) {
-    const double f = band.column("frequency_Hz")[i];
-    const std::vector<double>&at = truth.column("frequency_Hz"), &value = truth.column("true_shear_storage_modulus_Pa");
-    const std::size_t k = static_cast<std::size_t>(std::ranges::upper_bound(at, f) - at.begin());
-    const double share = std::log(f / at[k - 1]) / std::log(at[k] / at[k - 1]);
-    const double due = value[k - 1] * std::pow(value[k] / value[k - 1], share);
-    ++n;
-    n_held += band.column("lower_shear_storage_modulus_Pa")[i] <= due &&
-                      due <= band.column("upper_shear_storage_modulus_Pa")[i]
-                  ? 1
-                  : 0;
-  }
-  EXPECT_EQ(n, 59u);
-  EXPECT_GE(n_held, 55u);
+  const Held held = held_by(read_csv(copy / "results/fit_complex_modulus.csv"));
+  EXPECT_EQ(held.of, 59u);
+  EXPECT_GE(held.storage, 54u);
+  EXPECT_GE(held.loss, 54u);
   ASSERT_EQ(run({"run", (copy / "results/case.fitted.toml").string(), "--quiet", "--output", (copy / "rate").string()})
                 .status,
             0);
