@@ -1,6 +1,7 @@
 #include "postproc/reduction/initiation.h"
 
 #include "physics/error.h"
+#include "postproc/curves/measured_curve.h"
 #include "postproc/reduction/beam_terms.h"
 
 #include <fmt/format.h>
@@ -63,14 +64,15 @@ StraightPart straight_part(const TestRecord& record) {
     return std::vector<double>(v.begin() + static_cast<std::ptrdiff_t>(first),
                                v.begin() + static_cast<std::ptrdiff_t>(straight.end));
   };
-  const FittedLine line = fitted_line(part(record.displacement), part(record.force));
-  if (straight.end < first + 3 || !(line.slope > 0.0))
+  const auto line = straight_line(part(record.displacement), part(record.force), 0.0);
+  if (!line)
     throw InputError(
         fmt::format("{} rows lie between 10 and 50 % of the greatest force; the initial compliance needs "
                     "three that rise",
                     straight.end - first));
-  straight.compliance = 1.0 / line.slope;
-  straight.origin = -line.intercept / line.slope;
+  straight.compliance = 1.0 / line->slope;
+  straight.origin = line->zero;
+  straight.origin_error = line->zero_error;
   return straight;
 }
 

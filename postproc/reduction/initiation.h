@@ -12,8 +12,9 @@ inline constexpr double straight_from = 0.1, straight_to = 0.5;
 
 /// The straight part of a record: from 10 to 50 % of the greatest force, on the way to it.
 struct StraightPart {
-  double compliance = not_given;  ///< C0 [m/N]
-  double origin = not_given;      ///< displacement at zero force [m]; 0 in a ReducedTest
+  double compliance = not_given;    ///< C0 [m/N]
+  double origin = not_given;        ///< displacement at zero force [m]; 0 in a ReducedTest
+  double origin_error = not_given;  ///< its standard error by the scatter about the line [m]
   double greatest_force = not_given;
   std::size_t row_of_greatest = 0;
   std::size_t end = 0;  ///< the row after its last

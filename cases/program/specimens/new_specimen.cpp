@@ -5,6 +5,7 @@
 #include "cases/program/input/config/expression.h"
 #include "cases/program/input/config/toml_document.h"
 #include "cases/program/specimens/measured_record.h"
+#include "cases/program/specimens/record_origin.h"
 #include "cases/program/specimens/specimen_text.h"
 #include "physics/error.h"
 #include "physics/quantity_text.h"
@@ -23,8 +24,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double noticeable_origin = 0.01;  // of the displacement at the greatest force
-constexpr double least_share = 0.1;         // of the greatest force: the specimen still carries
+constexpr double least_share = 0.1;  // of the greatest force: the specimen still carries
 
 /// What the records say, before the case is written.
 struct RecordFindings {
@@ -84,34 +84,6 @@ RecordFindings findings_of(const std::string& text, const std::vector<fs::path>&
   if (settings) found.reduced = reduced_tests(*settings);
   if (const double last = last_reduced(found.reduced); last > 0.0) found.reach = last;
   return found;
-}
-
-/// Where the straight part of the first record lies, whose toe is taken off.
-std::string straight_keys(const RecordFindings& found, bool has_toe) {
-  const StraightPart& straight = found.straight.front();
-  const double origin = has_toe ? 0.0 : straight.origin;
-  return fmt::format("stiffness_between = [\"{}\", \"{}\"]   # from 10 to 50 % of the greatest force\n",
-                     quantity_text(origin + straight_from * straight.reach(), "m"),
-                     quantity_text(origin + straight_to * straight.reach(), "m"));
-}
-
-bool misses_origin(const StraightPart& straight) {
-  return std::abs(straight.origin) >= noticeable_origin * straight.reach();
-}
-
-/// Adds the toe of a record whose straight part misses the origin; as a comment where the specimen may stiffen.
-void add_toe(MeasuredRecord& record, const StraightPart& straight, bool is_taken) {
-  if (!misses_origin(straight)) return;
-  const std::string origin = quantity_text(straight.origin, "m");
-  record.text += fmt::format("{}toe = [\"{}\", \"{}\"]          # {} {}\n", is_taken ? "" : "# ",
-                             quantity_text(straight_from * straight.greatest_force, "N"),
-                             quantity_text(straight_to * straight.greatest_force, "N"),
-                             is_taken ? "the straight part gives the origin: it was at"
-                                      : "if the record has slack: its straight part meets zero force at",
-                             origin);
-  if (!is_taken)
-    record.remarks.push_back(fmt::format(
-        "the straight part meets zero force at {}; if that is slack, toe in case.toml takes it off", origin));
 }
 
 double guessed(const SpecimenValue& value, const std::vector<ReducedTest>& tests) {
@@ -174,6 +146,7 @@ std::vector<MeasuredRecord> in_place(std::vector<MeasuredRecord> records, const 
 struct Measured {
   std::string text{};
   RecordFindings found{};
+  std::string offsets{};  ///< [[fit.parameters]] of what toes leave
 };
 
 Measured measured(std::vector<MeasuredRecord>& records, const SpecimenRequest& request, const std::string& reduction,
@@ -185,12 +158,23 @@ Measured measured(std::vector<MeasuredRecord>& records, const SpecimenRequest& r
   };
   RecordFindings found = read();
   for (std::size_t i = 0; i < records.size(); ++i) add_toe(records[i], found.straight[i], takes_toe);
-  keys = straight_keys(found, takes_toe && misses_origin(found.straight.front()));
+  keys = straight_keys(found.straight.front(), takes_toe);
+  const std::string offsets = takes_toe ? offset_parameters(found.straight) : "";
   found = read();
-  return {experiment_text(records, keys, reduction), found};
+  return {experiment_text(records, keys, reduction), found, offsets};
 }
 
 double share_of(const SpecimenFile& specimen) { return specimen.share.empty() ? 1.0 : evaluated(specimen.share, {}); }
+
+/// [experiment.reduction] of a specimen. Comments of keys that --set gives, as "# young_modulus = ...", become keys.
+std::string reduction_of(const SpecimenFile& specimen, const SpecimenWords& words) {
+  std::string text = filled(specimen.reduction, words);
+  for (const std::string& name : words.given) {
+    const std::string key = fmt::format("\n# {} = ", name);
+    if (const std::size_t at = text.find(key); at != std::string::npos) text.erase(at + 1, 2);
+  }
+  return text;
+}
 
 std::string unmeasured(const std::string& reduction, double share) {
   const MeasuredRecord example{.file = "data/record.csv",
@@ -230,7 +214,7 @@ Measured measured_or_none(const SpecimenFile& specimen, const SpecimenRequest& r
   double straight_end = 0.0;
   if (!files.empty()) {
     std::vector<MeasuredRecord> records = recognised_all(request, files, columns, share_of(specimen));
-    test = measured(records, request, filled(specimen.reduction, words), specimen.takes_toe);
+    test = measured(records, request, reduction_of(specimen, words), specimen.takes_toe);
     for (const MeasuredRecord& record : records)
       for (const std::string& remark : record.remarks) said << fmt::format("  {}: {}\n", record.file, remark);
     guess_all(specimen, test.found, words, said);
@@ -259,8 +243,8 @@ void make_specimen(const SpecimenRequest& request, std::ostream& out) {
   const std::string text =
       schema_line(request) + filled(specimen.case_text, words) + "\n" +
       (files.empty() ? "# With a record of the test in data/, without the signs of comment:\n\n" +
-                           commented(unmeasured(filled(specimen.reduction, words), share_of(specimen)) + fit)
-                     : test.text + fit);
+                           commented(unmeasured(reduction_of(specimen, words), share_of(specimen)) + fit)
+                     : test.text + fit + test.offsets);
   write_all(request, files, text, filled(specimen.readme, words));
   const std::string place = request.directory.string();
   out << fmt::format("made {} of {} ({}): case.toml, README.md", place, specimen.name, specimen.standard);

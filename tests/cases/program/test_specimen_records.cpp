@@ -103,6 +103,49 @@ TEST(MachineRecords, HaveEachItsOwnToe) {
   EXPECT_EQ(turned.text.substr(turned.text.find("name = \"record2\"")).find("toe = "), std::string::npos);
 }
 
+// A straight part gives its origin within noise: a fit estimates what is left, of the records that have a toe.
+TEST(MachineRecords, WithAToeHaveTheirOffsetEstimated) {
+  const Made result = made({straight_rows("Opening [mm];Load [N]", 2), straight_rows("Opening [mm];Load [N]", 2, 0.5)});
+  ASSERT_EQ(result.outcome.status, 0) << result.outcome.err;
+  EXPECT_THAT(result.text.substr(result.text.find("name = \"record2\"")), HasSubstr("\noffset = \"0 mm\""));
+  EXPECT_THAT(result.text, HasSubstr("\nkey = \"experiment.specimens[1].offset\"\nbounds = [\"-120 um\", \"120 um\"]"));
+  EXPECT_THAT(result.text, Not(HasSubstr("specimens[0].offset")));
+  EXPECT_EQ(result.warning, "");
+}
+
+/// The same rows with forces that alternate by +-`noise` [N] about the straight line, which meets zero force at 60 um.
+std::string noisy_rows(double noise) {
+  std::string text = "Opening [mm];Load [N]\n";
+  for (int i = 0; i <= 40; ++i)
+    text += fmt::format("{:.4f};{:.4f}\n", 0.1 * i + 0.06,
+                        1.0 * i + (i == 0             ? 0.0
+                                   : (i / 2) % 2 == 0 ? noise
+                                                      : -noise));
+  return text;
+}
+
+TEST(MachineRecords, KeepAnOriginThatNoiseMoves) {
+  EXPECT_THAT(made({noisy_rows(0.0)}).text, HasSubstr("\ntoe = "));
+  EXPECT_THAT(made({noisy_rows(1.5)}).text, Not(HasSubstr("toe = ")));
+}
+
+TEST(MachineRecords, AreReducedByTheModulusThatIsGiven) {
+  for (const std::string specimen : {"mixed_mode_bending", "compact_tension", "end_notched_flexure"}) {
+    const std::string rows = straight_rows("Opening [mm];Load [N]", 2);
+    std::vector<std::string> set{"young_modulus=20 GPa", "toughness=500 J/m^2", "strength=60 MPa"};
+    if (specimen == "end_notched_flexure") set.push_back("shear_toughness=500 J/m^2");
+    const Made given = made({rows}, specimen, set);
+    ASSERT_EQ(given.outcome.status, 0) << given.outcome.err;
+    const auto reduction_of = [](const std::string& text) {
+      const std::size_t begin = text.find("[experiment.reduction]");
+      return text.substr(begin, text.find("[[experiment", begin) - begin);
+    };
+    EXPECT_THAT(reduction_of(given.text), HasSubstr("\nyoung_modulus = \"20 GPa\"")) << specimen;
+    EXPECT_EQ(given.warning, "") << specimen;
+    EXPECT_THAT(made({}, specimen).text, HasSubstr("\n# # young_modulus = \"")) << specimen;
+  }
+}
+
 /// A lap joint that stiffens from 20 to 60 kN/mm, and fails at 8 kN and 0.2 mm.
 std::string stiffening_rows() {
   std::string text = "displacement [mm],load [N]\n";
