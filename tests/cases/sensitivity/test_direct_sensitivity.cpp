@@ -1,5 +1,6 @@
 // pfdm sensitivity --method direct, against closed forms and against differences.
 
+#include "cases/program/studies/sensitivity/direct_sensitivity.h"
 #include "postproc/files/csv_table.h"
 #include "tests/cases/sensitivity/closed_forms.h"
 
@@ -135,6 +136,19 @@ TEST(DirectSensitivity, RefusesWhatItDoesNotFollow) {
   };
   refused("--parameters", increment, "take --method differences");
   refused("--step", "0.1", "--method direct takes none");
+}
+
+// What several jumps leave grows without a bound: 1e151 of a DCB whose cells break one by one.
+TEST(DirectSensitivity, BehindJumpsHasNoElasticityPastAllReason) {
+  pfdm::DirectSensitivity found;
+  found.curve = {.name = "computed", .x = {0.0, 1.0, 2.0, 3.0}, .y = {0.0, 2.0, 2.0, 2.0}};
+  found.by_load.assign(4, {});
+  found.by = {{{}, {.force = 500.0}, {.force = 1.0, .is_after_jump = true}, {.force = 1e151, .is_after_jump = true}}};
+  const std::vector<Elasticity> elasticity = elasticities(found, 0);
+  EXPECT_EQ(elasticity[1].value, 250.0);  // before jumps all are told
+  EXPECT_EQ(elasticity[2].value, 0.5);
+  EXPECT_TRUE(elasticity[2].is_doubtful());
+  EXPECT_FALSE(elasticity[3].is_known());
 }
 
 TEST(DirectSensitivity, IsRefusedWhereModelsHaveNone) {

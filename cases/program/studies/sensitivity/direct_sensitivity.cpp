@@ -13,10 +13,14 @@ namespace {
 // share of 1e-6 was an error of 9e-5.
 constexpr double worst_condition = 100.0;
 
-/// Of a state behind a jump the error is not known.
+// Behind one jump after another, as of a crack that breaks its cells one by one, what jumps froze makes derivatives
+// grow without a bound: of a DCB to 1e151.
+constexpr double no_elasticity = 100.0;
+
+/// Of a state behind a jump the error is not known; there is none where it is past all reason.
 Elasticity elasticity_of(double derivative, double value, const RowDerivative& row) {
   const double elasticity = derivative / value;
-  if (row.is_after_jump) return {.value = elasticity};
+  if (row.is_after_jump) return std::abs(elasticity) < no_elasticity ? Elasticity{.value = elasticity} : Elasticity{};
   return {.value = elasticity, .error = worst_condition * row.unsolved * std::max(1.0, std::abs(elasticity))};
 }
 
