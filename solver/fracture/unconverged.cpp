@@ -114,8 +114,11 @@ Remedies remedies_of(const Mesh& mesh, const FractureModel& model, const Unknown
 }
 
 std::string what_to_try(const StaggeredSettings& settings, const StepOutcome& outcome, const Remedies& remedies) {
-  if (outcome.stuck)
-    return "what may help: cells of better shape (see pfdm mesh), a larger fracture.residual_stiffness";
+  if (outcome.stuck) {
+    const bool is_direct = settings.linear != nullptr && settings.linear->name == "direct";
+    return fmt::format("what may help: {}cells of better shape (see pfdm mesh), a larger fracture.residual_stiffness",
+                       is_direct ? "" : "solver.linear = \"direct\", which takes more memory, ");
+  }
   if (outcome.settled)
     return "its damage and energies have converged: a larger solver.equilibrium_tolerance accepts it";
   std::vector<std::string> ways;

@@ -78,7 +78,9 @@ TEST(Unconverged, NamesCellsWhereTheLinearSolverIsStuck) {
   outcome.failed = outcome.stuck = outcome.settled = true;
   EXPECT_EQ(what_changes(three_cells(), {}, outcome),
             "the linear solver came no closer to the balance of forces (residual 3.0e-05)");
-  EXPECT_THAT(what_to_try({}, outcome, {}), HasSubstr("cells of better shape (see pfdm mesh)"));
+  EXPECT_THAT(what_to_try({}, outcome, {}), HasSubstr("solver.linear = \"direct\", which takes more memory, cells of"));
+  EXPECT_THAT(what_to_try({.linear = &linear_solver("direct")}, outcome, {}),
+              HasSubstr("may help: cells of better shape (see pfdm mesh)"));
 }
 
 }  // namespace
