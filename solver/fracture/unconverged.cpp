@@ -42,7 +42,7 @@ std::string what_closes(const Mesh& mesh, const StaggeredSettings& settings, con
 
 std::string what_changes(const Mesh& mesh, const StaggeredSettings& settings, const StepOutcome& outcome) {
   if (outcome.stuck)
-    return fmt::format("the linear solver came no closer to the balance of forces (residual {:.1e})", outcome.residual);
+    return fmt::format("the linear solver came no closer to balance (residual {:.1e})", outcome.residual);
   if (outcome.failed) return "no displacements were found that balance the forces";
   std::vector<std::string> left;
   const Vector& x = mesh.cell_centre[outcome.rest.cell];
@@ -116,8 +116,8 @@ Remedies remedies_of(const Mesh& mesh, const FractureModel& model, const Unknown
 std::string what_to_try(const StaggeredSettings& settings, const StepOutcome& outcome, const Remedies& remedies) {
   if (outcome.stuck) {
     const bool is_direct = settings.linear != nullptr && settings.linear->name == "direct";
-    return fmt::format("what may help: {}cells of better shape (see pfdm mesh), a larger fracture.residual_stiffness",
-                       is_direct ? "" : "solver.linear = \"direct\", which takes more memory, ");
+    return fmt::format("what may help: {}better cells (pfdm mesh), a larger fracture.residual_stiffness",
+                       is_direct ? "" : "solver.linear = \"direct\", ");
   }
   if (outcome.settled)
     return "its damage and energies have converged: a larger solver.equilibrium_tolerance accepts it";

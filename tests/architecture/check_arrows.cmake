@@ -67,7 +67,7 @@ set(rooms
     "postproc/page: physics postproc/files"
     "postproc/browser: physics mesh postproc/files postproc/fields postproc/page"
     "postproc/records: physics postproc/files postproc/hdf5"
-    "postproc/reduction: physics postproc/files"
+    "postproc/reduction: physics postproc/files postproc/curves"
     "cases/program/input/config: physics postproc/files"
     "cases/program/input/case_files: physics postproc/files cases/program/input/config"
     "cases/program/input/fields: physics mesh mesh/search mesh/files postproc/files cases/program/input/config

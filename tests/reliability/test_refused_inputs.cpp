@@ -74,7 +74,7 @@ const Refused inputs[] = {
     {"stl_layers_1e-9_mm", "check", {}, "TetGen crashes between the surfaces of the mesh"},
     {"bead_layers_1e-9_um", "check", {}, "TetGen crashes between the surfaces of the mesh"},
     {"stl_1e150", "check", {}, "coordinates may be up to 1000 km"},
-    {"stl_needle", "run", {}, "the linear solver came no closer to the balance of forces", 1},
+    {"stl_needle", "run", {}, "the linear solver came no closer to balance", 1},
     {"wav_unit_1e300", "fit", {}, "a record has less than 1e+09 m/s^2"},
     {"point_twice", "check", {}, "there is another point \"centre\""},
     {"chain_figure_missing", "check", {}, "\"nothing.json\" is not a file of numbers in a step's results"},
