@@ -9,15 +9,19 @@
 namespace pfdm {
 namespace {
 
-constexpr int per_decade = 8;         // of the grid of times
-constexpr double amount = 1e-6;       // of the unknowns, for differences
-constexpr double least_part = 1e-9;   // of the scale: a relaxed modulus is positive
+constexpr int per_decade = 8;                              // of the grid of times
+constexpr double least_amount = 1e-6, most_amount = 1e-3;  // of the unknowns, for differences
+constexpr double residual_change = 1e-3;                   // of the residuals, likewise
+constexpr double least_part = 1e-5;   // of the scale: creep at a relaxed modulus of less has no digits left
 constexpr double improvement = 1e-3;  // of a sum of squares, over the noise: the next linear problem would be the same
+constexpr double small_excess = 0.1;  // of a sum of squares over the least
 constexpr double shortest_step = 1e-3;  // towards the minimum of the linear problem
-constexpr double weight = 100.0;        // of a figure over its value, beside residuals
-constexpr double first_reach = 0.05;    // of the search for an end, in parts of the value
-constexpr double farthest = 1e3;        // likewise: open
-constexpr double near_goal = 1e-3;      // of the root of the allowance
+constexpr double weights[] = {1e2, 1e5,
+                              1e8};   // of a figure over its value, beside residuals: as accurate as data may be
+constexpr double first_reach = 0.05;  // of the search for an end, in parts of the value
+constexpr double farthest = 1e3;      // likewise: open
+constexpr double open_from = 100.0;   // by rounding of the slopes, which find an end far away
+constexpr double near_goal = 1e-3;    // of the root of the allowance
 constexpr int most_turns = 60;
 
 std::vector<double> grid_of(const PronyLaw& law, const TimeWindow& window, const SpectrumReach& reach) {
@@ -75,9 +79,10 @@ AllowedSpectra::AllowedSpectra(const ViscoelasticFit& fit, const ViscoelasticExp
   x_[0] = given_.relaxed.mu / scale_;
   for (const PronyBranch& branch : given_.shear)
     x_[1 + (std::ranges::lower_bound(times_, branch.time) - times_.begin())] += branch.modulus / scale_;
+  amounts_ = Eigen::VectorXd::Constant(x_.size(), least_amount);
   descend(experiments, deviations);
   at_best_ = moduli_of(best_);
-  for (Eigen::Index j = 0; j < x_.size(); ++j) moduli_beside_.push_back(moduli_of(beside(best_, j, amount)));
+  for (Eigen::Index j = 0; j < x_.size(); ++j) moduli_beside_.push_back(moduli_of(beside(best_, j, amounts_[j])));
 }
 
 void AllowedSpectra::descend(const ViscoelasticExperiments& experiments, std::span<const double> deviations) {
@@ -89,6 +94,7 @@ void AllowedSpectra::descend(const ViscoelasticExperiments& experiments, std::sp
     linearise(experiments, deviations);
     const Eigen::VectorXd x = non_negative_least_squares(R_, right_);
     least_sum_ = (R_ * x - right_).squaredNorm();
+    is_least_ = sum - least_sum_ <= small_excess;
     if (sum - least_sum_ <= improvement) break;
     // A fast branch as stiff as the bulk makes tension less than linear: as far as it is.
     double length = 1.0, there = sum_of(x);
@@ -97,6 +103,7 @@ void AllowedSpectra::descend(const ViscoelasticExperiments& experiments, std::sp
       there = sum_of(x_ + length * (x - x_));
     }
     if (!(there < sum)) break;
+    is_least_ = false;
     x_ += length * (x - x_);
     sum = there;
     best_ = law_of(x_);
@@ -106,11 +113,11 @@ void AllowedSpectra::descend(const ViscoelasticExperiments& experiments, std::sp
 PronyLaw AllowedSpectra::beside(const PronyLaw& law, Eigen::Index j, double more) const {
   PronyLaw result = law;
   const auto n = std::ssize(times_);
-  double mu = law.relaxed.mu, nu = law.relaxed.poisson_ratio();
+  double mu = law.relaxed.mu, K = law.relaxed.bulk_modulus();
   if (j == 0 && !holds_relaxed_) mu += more * scale_;
-  if (j > n) nu += (j == n + 1 ? more : -more) * (0.5 - given_.relaxed.poisson_ratio());
+  if (j > n) K *= 1.0 + (j == n + 1 ? more : -more);
   if (j == 0 || j > n)
-    result.relaxed = from_young_poisson(2.0 * (1.0 + nu) * mu, nu);
+    result.relaxed = {.lambda = K - 2.0 / 3.0 * mu, .mu = mu};
   else
     result.shear.push_back({more * scale_, times_[static_cast<std::size_t>(j - 1)]});
   return result;
@@ -120,9 +127,8 @@ PronyLaw AllowedSpectra::law_of(const Eigen::VectorXd& x) const {
   PronyLaw law = given_;
   const auto n = std::ssize(times_);
   const double mu = holds_relaxed_ ? given_.relaxed.mu : std::max(x[0], least_part) * scale_;
-  double nu = given_.relaxed.poisson_ratio();
-  if (!holds_poisson_ratio_) nu += (x[n + 1] - x[n + 2]) * (0.5 - nu);
-  law.relaxed = from_young_poisson(2.0 * (1.0 + nu) * mu, std::clamp(nu, -0.99, 0.49999));
+  const double K = given_.relaxed.bulk_modulus() * (holds_poisson_ratio_ ? 1.0 : std::exp(x[n + 1] - x[n + 2]));
+  law.relaxed = {.lambda = K - 2.0 / 3.0 * mu, .mu = mu};
   law.shear.clear();
   for (Eigen::Index i = 1; i <= n; ++i)
     if (x[i] > 0.0) law.shear.push_back({x[i] * scale_, times_[static_cast<std::size_t>(i - 1)]});
@@ -133,8 +139,11 @@ void AllowedSpectra::linearise(const ViscoelasticExperiments& experiments, std::
   const Eigen::VectorXd residuals = residuals_of(best_, experiments, deviations);
   const Eigen::Index k = x_.size();
   Eigen::MatrixXd both(residuals.size(), k + 1);
-  for (Eigen::Index j = 0; j < k; ++j)
-    both.col(j) = (residuals_of(beside(best_, j, amount), experiments, deviations) - residuals) / amount;
+  for (Eigen::Index j = 0; j < k; ++j) {
+    both.col(j) = (residuals_of(beside(best_, j, amounts_[j]), experiments, deviations) - residuals) / amounts_[j];
+    amounts_[j] =
+        std::clamp(residual_change / std::max(both.col(j).norm(), residual_change), least_amount, most_amount);
+  }
   both.col(k) = both.leftCols(k) * x_ - residuals;
   if (both.rows() > k) both = upper_triangle(both);
   R_ = both.leftCols(k);
@@ -145,7 +154,7 @@ Eigen::VectorXd AllowedSpectra::slopes_of(const ModuliFigure& figure) const {
   const double there = figure(at_best_);
   Eigen::VectorXd slopes(x_.size());
   for (Eigen::Index j = 0; j < x_.size(); ++j)
-    slopes[j] = (figure(moduli_beside_[static_cast<std::size_t>(j)]) - there) / amount;
+    slopes[j] = (figure(moduli_beside_[static_cast<std::size_t>(j)]) - there) / amounts_[j];
   return slopes;
 }
 
@@ -154,17 +163,23 @@ std::optional<SpectrumExtreme> AllowedSpectra::end_of(const ModuliFigure& figure
   const double there = figure(at_best_), size = std::max(std::abs(there), 1e-6 * slopes.lpNorm<Eigen::Infinity>());
   if (!(size > 0.0)) return SpectrumExtreme{there, best_};
   Eigen::MatrixXd A(R_.rows() + 1, R_.cols());
-  A << R_, weight / size * slopes.transpose();
   Eigen::VectorXd b(A.rows()), x = x_;
   b.head(right_.size()) = right_;
+  double weight = 0.0;
   // The minimum with one more datum, the figure at a distance, is the end for the sum of squares that it has.
   const auto above = [&](double reach) {
     b[b.size() - 1] = weight * (slopes.dot(x_) / size + sign * reach);
     x = non_negative_least_squares(A, b);
     return std::sqrt(std::max((R_ * x - right_).squaredNorm() - least_sum_, 0.0)) - std::sqrt(allowance);
   };
-  const bool is_reached = reach_goal(std::sqrt(allowance), above);
-  if (!is_reached && sign > 0.0) return std::nullopt;
+  bool is_reached = false;
+  for (const double next : weights) {
+    weight = next;
+    A << R_, weight / size * slopes.transpose();
+    is_reached = reach_goal(std::sqrt(allowance), above);
+    if (is_reached) break;
+  }
+  if (sign > 0.0 && (!is_reached || slopes.dot(x - x_) > open_from * size)) return std::nullopt;
   return SpectrumExtreme{there + slopes.dot(x - x_), law_of(x)};
 }
 

@@ -4,9 +4,10 @@
 //
 //   min, max c(x)  subject to  |A x - b|^2 <= min_x |A x - b|^2 + allowance,  x >= 0,
 //
-// with the relaxed modulus and the moduli x of a fine grid of times, and the times of a fit. The problem is convex: its
-// ends are exact on the grid (Rust, O'Leary, SIAM J. Sci. Comput. 15 (1994) 67; Stark, J. Geophys. Res. 97 (1992)
-// 14055).
+// with the relaxed modulus and the moduli x of a fine grid of times, and the times of a fit. The problem is convex.
+// Ends are exact on the grid where what was measured is linear in the moduli, as stresses at given strains and moduli
+// in shear, else to first order (Rust, O'Leary, Confidence intervals for discrete approximations to ill-posed problems,
+// J. Comput. Graph. Stat. 3 (1994) 67; Stark, J. Geophys. Res. 97 (1992) 14055).
 
 #include "solver/point/viscoelastic_fit.h"
 
@@ -44,19 +45,21 @@ struct SpectrumExtreme {
   PronyLaw law;
 };
 
-/// Tension is taken to first order about the spectrum that meets the data best; shear is linear. A Poisson's ratio that
-/// is estimated is free, to first order likewise.
+/// Tension, creep and loss factors are taken to first order about the spectrum that meets the data best. The bulk
+/// modulus is that of the fit; where Poisson's ratio is estimated it is free.
 class AllowedSpectra {
  public:
   /// `fit`: one of branches, whose moduli are estimated; `deviations`: of each measured value.
   AllowedSpectra(const ViscoelasticFit& fit, const ViscoelasticExperiments& experiments,
                  std::span<const double> deviations, const SpectrumReach& reach = {});
 
+  /// Whether the spectrum that meets the data best was found. Without it there are no ends.
+  bool is_least() const { return is_least_; }
   double least_sum() const { return least_sum_; }  ///< of squares, of any spectrum
   const PronyLaw& best() const { return best_; }   ///< the spectrum that has it
 
   /// Ends with a sum of squares of least_sum() + allowance; nothing where the data leave a figure open: above a
-  /// thousand times that of the best spectrum.
+  /// hundred times that of the best spectrum.
   std::optional<SpectrumExtreme> lowest(const ModuliFigure& figure, double allowance) const;
   std::optional<SpectrumExtreme> highest(const ModuliFigure& figure, double allowance) const;
 
@@ -75,9 +78,11 @@ class AllowedSpectra {
   std::vector<double> times_;
   double scale_ = 0.0;  // of the moduli [Pa]: unknowns are in parts of it
   PronyLaw best_;
-  Eigen::VectorXd x_;  // of best_: relaxed modulus, moduli at the times, Poisson's ratio above and below the given one
+  Eigen::VectorXd x_;  // of best_: relaxed modulus, moduli at the times, bulk modulus above and below the given one
   Eigen::MatrixXd R_;  // |R x - right|^2: the sum of squares
   Eigen::VectorXd right_;
+  Eigen::VectorXd amounts_;  // of the unknowns, for differences
+  bool is_least_ = false;
   double least_sum_ = 0.0;
   LawModuli at_best_;
   std::vector<LawModuli> moduli_beside_;  // of an amount more of each unknown

@@ -142,7 +142,7 @@ struct Outside {
   double most = 0.0;
   void add(const Moduli& at, const Ends& ends) {
     for (std::size_t m = 0; m < at.size(); ++m) {
-      const double half = 0.5 * (ends.upper[m] - ends.lower[m]),
+      const double half = std::isfinite(ends.upper[m]) ? 0.5 * (ends.upper[m] - ends.lower[m]) : ends.lower[m],
                    by = std::max(ends.lower[m] - at[m], at[m] - ends.upper[m]);
       if (!(by > least_outside * half)) continue;
       ++n;
@@ -176,7 +176,9 @@ ModulusBand modulus_band(const ViscoelasticFit& fit, const FitFindings& findings
   const double allowance = allowance_of(fit, findings);
   std::optional<AllowedSpectra> spectra;
   if (allowance > 0.0) spectra.emplace(fit, experiments, deviations);
-  const auto reaches = spectra ? std::nullopt : reaches_of(findings);
+  const bool is_lost = spectra && !spectra->is_least();
+  if (is_lost) spectra.reset();
+  const auto reaches = spectra || is_lost ? std::nullopt : reaches_of(findings);
   std::array<std::vector<double>, 4> estimate, lower, upper;
   Outside outside;
   for (const double f : frequencies) {
@@ -196,7 +198,11 @@ ModulusBand modulus_band(const ViscoelasticFit& fit, const FitFindings& findings
     }
   }
   ModulusBand band;
-  band.warning = warning_of(outside, 4 * frequencies.size(), fit.law.shear.size());
+  band.warning =
+      is_lost ? "no spectrum that meets the data best was found: moduli over frequency have no intervals, and that "
+                "of young_modulus is too narrow where times lie beyond the data; more branches may help "
+                "(branches, and times = \"fixed\", in [fit])"
+              : warning_of(outside, 4 * frequencies.size(), fit.law.shear.size());
   band.table.comments.emplace_back("complex moduli of the fitted law in the window of the data");
   band.table.comments.push_back(comment_of(spectra || reaches, spectra.has_value()));
   band.table.add("frequency_Hz", frequencies);
@@ -215,6 +221,7 @@ void widen_relaxed_modulus(const ViscoelasticFit& fit, const ViscoelasticExperim
   const auto at = std::ranges::find(findings.parameters, "young_modulus", &FittedParameter::name);
   if (!(allowance > 0.0) || at == findings.parameters.end()) return;
   const AllowedSpectra spectra(fit, experiments, deviations, {.slower = 1.0});
+  if (!spectra.is_least()) return;
   const auto figure = [](const LawModuli& moduli) { return moduli.young.relaxed; };
   const auto lowest = spectra.lowest(figure, allowance), highest = spectra.highest(figure, allowance);
   at->lower = std::min(at->lower, std::max(lowest ? lowest->value : 0.0, at->lower_bound));

@@ -147,8 +147,10 @@ Chart moduli_of_fit(const CsvTable& table, const std::string& which, const std::
   const std::string storage = which + "_storage_modulus_Pa", loss = which + "_loss_modulus_Pa";
   Columns columns{{storage, letter + "'"}, {loss, letter + "''"}};
   const bool is_known = std::ranges::count(table.names, "lower_" + storage) > 0;
-  Chart chart = over_frequency(is_known ? "Complex modulus of the fit, 95 % bands" : "Complex modulus of the fit",
-                               table, true, columns);
+  Chart chart =
+      over_frequency(is_known ? "Complex modulus of the fit, 95 % bands (to a tenth and ten times of it at most)"
+                              : "Complex modulus of the fit",
+                     table, true, columns);
   const DisplayUnit unit = unit_of_columns(table, columns, "Pa");
   for (int k = 0; is_known && k < 2; ++k) {
     const std::string& column = columns[static_cast<std::size_t>(k)].first;
@@ -177,7 +179,7 @@ std::vector<PageRow> rows_of_fit(const FitReport& fit, const fs::path& results) 
       charts.emplace_back(over_frequency(caption, curve, false, columns));
   }
   if (const fs::path file = results / modulus_band_file; fs::exists(file)) {
-    const CsvTable moduli = read_csv(file);
+    const CsvTable moduli = read_csv(file, {.has_gaps = true});  // ends may be inf
     charts.emplace_back(moduli_of_fit(moduli, "young", "E"));
     charts.emplace_back(moduli_of_fit(moduli, "shear", "G"));
   }
