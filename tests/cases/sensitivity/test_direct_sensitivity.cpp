@@ -151,6 +151,48 @@ TEST(DirectSensitivity, BehindJumpsHasNoElasticityPastAllReason) {
   EXPECT_FALSE(elasticity[3].is_known());
 }
 
+// Cells that break one by one make no fall of the force within one row: what breaks them leaves equations unsolved.
+TEST(DirectSensitivity, BehindLostRowsHasNoElasticityPastAllReason) {
+  pfdm::DirectSensitivity found;
+  found.curve = {.name = "computed", .x = {0.0, 1.0, 2.0, 3.0, 4.0, 5.0}, .y = {0.0, 2.0, 2.0, 2.0, 2.0, 2.0}};
+  found.by_load.assign(6, {});
+  const double nan = std::nan("");
+  found.by = {{{},
+               {.force = 500.0, .unsolved = 1e-9},
+               {.force = 1.0, .unsolved = 0.02},
+               {.force = 1.0, .unsolved = 1e-9},
+               {.force = 2.8e5, .unsolved = 1e-9},
+               {.force = -1e144, .unsolved = nan}},
+              {{}, {.force = 500.0}, {.force = 500.0}, {.force = 500.0}, {.force = 500.0}, {.force = 500.0}}};
+  mark_lost_rows(found);
+  const std::vector<Elasticity> elasticity = elasticities(found, 0), other = elasticities(found, 1);
+  EXPECT_EQ(elasticity[1].value, 250.0);
+  EXPECT_FALSE(elasticity[1].is_doubtful());
+  for (const std::size_t i : {2u, 3u}) {
+    EXPECT_EQ(elasticity[i].value, 0.5) << i;
+    EXPECT_TRUE(elasticity[i].is_doubtful()) << i;
+  }
+  for (const std::size_t i : {4u, 5u}) EXPECT_FALSE(elasticity[i].is_known()) << i;
+  for (std::size_t i = 1; i < 6; ++i) EXPECT_FALSE(other[i].is_doubtful()) << i;  // each parameter has its own
+}
+
+TEST(DirectSensitivity, OfAJumpBehindLostRowsHasNoElasticityPastAllReason) {
+  pfdm::DirectSensitivity found;
+  found.curve = {.name = "computed", .x = {0.0, 1.0, 2.0, 2.1, 3.0}, .y = {0.0, 1.0, 2.0, 0.5, 1.0}};
+  found.by_load.assign(5, {.displacement = 1.0});
+  const BaseEvent jump{.event = {.kind = EventKind::jump, .number = 1}, .displacement = 2.0, .quantities = {{}}};
+  for (const auto& [load, is_told] : {std::pair(10.0, true), {1e30, false}}) {
+    found.by = {std::vector<RowDerivative>(5)};
+    found.by[0][1].unsolved = 1.0;
+    found.by[0][2].jump = {.load = load, .error = 0.0};
+    mark_lost_rows(found);
+    const std::vector<Elasticity> elasticity = elasticities(found, 0, jump);
+    ASSERT_EQ(elasticity.size(), 1u);
+    EXPECT_EQ(elasticity[0].is_known(), is_told) << load;
+    EXPECT_EQ(elasticity[0].is_doubtful(), is_told);
+  }
+}
+
 TEST(DirectSensitivity, IsRefusedWhereModelsHaveNone) {
   const TemporaryCase viscous(
       replaced(replaced(bar_case(), "split = \"none\"", "split = \"none\"\nviscosity = \"1 kPa s\""), "[loading]\n",

@@ -140,6 +140,7 @@ DirectSensitivity differentiated_run(const FractureProgram& program, std::span<c
     session.log.step(fmt::format("  step {}: load {:.6g} of {:.6g}, {} iterations of the derivatives", state.step,
                                  state.load, fracture.loading.end, derivatives.iterations()));
   }
+  mark_lost_rows(found);
   found.is_turned = curve.sign < 0.0;
   found.may_debond = !run.model().interfaces.empty();
   return found;

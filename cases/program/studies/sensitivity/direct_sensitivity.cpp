@@ -17,10 +17,19 @@ constexpr double worst_condition = 100.0;
 // grow without a bound: of a DCB to 1e151.
 constexpr double no_elasticity = 100.0;
 
-/// Of a state behind a jump the error is not known; there is none where it is past all reason.
+/// The error is as large as the derivative; also where it is not a number.
+bool is_lost(const RowDerivative& row) { return !(worst_condition * row.unsolved <= 1.0); }
+
+/// There is none of a state behind a jump, or that is lost, where it is past all reason.
+bool is_none(double elasticity, const RowDerivative& row) {
+  return (row.is_after_jump || is_lost(row)) && !(std::abs(elasticity) < no_elasticity);
+}
+
+/// Of a state behind a jump the error is not known.
 Elasticity elasticity_of(double derivative, double value, const RowDerivative& row) {
   const double elasticity = derivative / value;
-  if (row.is_after_jump) return std::abs(elasticity) < no_elasticity ? Elasticity{.value = elasticity} : Elasticity{};
+  if (is_none(elasticity, row)) return {};
+  if (row.is_after_jump) return {.value = elasticity};
   return {.value = elasticity, .error = worst_condition * row.unsolved * std::max(1.0, std::abs(elasticity))};
 }
 
@@ -53,12 +62,19 @@ std::vector<Elasticity> of_jump(const DirectSensitivity& direct, std::size_t j, 
   const RowDerivative &by = direct.by[j][jump.before], &by_load = direct.by_load[jump.before];
   std::vector<Elasticity> found(event.quantities.size());
   const double displacement = by.displacement + by.jump.load * by_load.displacement;
-  found[0].value = displacement / direct.curve.x[jump.before];
+  const double elasticity = displacement / direct.curve.x[jump.before];
+  if (is_none(elasticity, by)) return found;
+  found[0].value = elasticity;
   if (!by.is_after_jump) found[0].error = std::abs(by.jump.error * by_load.displacement / direct.curve.x[jump.before]);
   return found;
 }
 
 }  // namespace
+
+void mark_lost_rows(DirectSensitivity& direct) {
+  for (std::vector<RowDerivative>& rows : direct.by)
+    for (auto row = std::ranges::find_if(rows, is_lost); row != rows.end(); ++row) row->is_after_jump = true;
+}
 
 std::vector<Elasticity> elasticities(const DirectSensitivity& direct, std::size_t parameter) {
   const double least = least_force(direct.curve);

@@ -17,8 +17,8 @@ struct RowDerivative {
     double load = 0.0, error = 0.0;
   };
   Jump jump{};
-  double unsolved = 0.0;  ///< share that the linear equations left
-  bool is_after_jump = false;
+  double unsolved = 0.0;       ///< share that the linear equations left
+  bool is_after_jump = false;  ///< or after a row that is lost: the error is not known
 };
 
 struct DirectSensitivity {
@@ -30,6 +30,10 @@ struct DirectSensitivity {
   bool may_debond = false;                          ///< it has cohesive interfaces
   double seconds_of_run = 0.0, seconds_more = 0.0;  ///< of the processor
 };
+
+/// Where the linear equations of a parameter leave an error as large as its derivative, as where cells of a crack break
+/// one by one, what is frozen is lost: marks that row, and all later ones, as after a jump.
+void mark_lost_rows(DirectSensitivity& direct);
 
 /// At each row, at fixed displacement. Unknown where the force is below a hundredth of its largest.
 std::vector<Elasticity> elasticities(const DirectSensitivity& direct, std::size_t parameter);

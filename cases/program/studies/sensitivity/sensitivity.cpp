@@ -112,12 +112,21 @@ CurvePeak::Shape shape_of_peak(const SampledCurve& curve) {
   return CurvePeak(curve, CurveBranches(curve), row).shape();
 }
 
+/// Rows after a jump, or that are lost of any parameter.
+Index n_after_jumps(const DirectSensitivity& direct) {
+  Index n = 0;
+  for (std::size_t i = 0; i < direct.by_load.size(); ++i)
+    n += std::ranges::any_of(direct.by, [i](const auto& rows) { return i < rows.size() && rows[i].is_after_jump; });
+  return n;
+}
+
 /// On what one run with derivatives leaves open.
 void add_remarks(const DirectSensitivity& direct, CaseSensitivity& found) {
-  const auto n = std::ranges::count_if(direct.by_load, [](const RowDerivative& row) { return row.is_after_jump; });
-  if (n > 0)
-    found.remarks.push_back(fmt::format("{} lie after a jump, where elasticities are approximate, by an unknown error",
-                                        counted(static_cast<Index>(n), "row")));
+  if (const Index n = n_after_jumps(direct); n > 0)
+    found.remarks.push_back(fmt::format(
+        "{} lie after a jump, or after one whose derivatives were lost: elasticities are approximate there, "
+        "by an unknown error",
+        counted(n, "row")));
   if (direct.may_debond)
     found.remarks.emplace_back("--method direct does not look for the first debonding; --method differences does");
   const auto is_peak = [](const BaseEvent& e) { return e.event.kind == EventKind::greatest_force; };
