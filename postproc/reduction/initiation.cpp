@@ -73,6 +73,7 @@ StraightPart straight_part(const TestRecord& record) {
   straight.compliance = 1.0 / line->slope;
   straight.origin = line->zero;
   straight.origin_error = line->zero_error;
+  straight.n_points = line->n_points;
   return straight;
 }
 

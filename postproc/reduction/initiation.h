@@ -17,7 +17,8 @@ struct StraightPart {
   double origin_error = not_given;  ///< its standard error by the scatter about the line [m]
   double greatest_force = not_given;
   std::size_t row_of_greatest = 0;
-  std::size_t end = 0;  ///< the row after its last
+  std::size_t end = 0;       ///< the row after its last
+  std::size_t n_points = 0;  ///< rows of it
 
   /// Displacement along it from its origin to the greatest force [m].
   double reach() const { return compliance * greatest_force; }

@@ -145,6 +145,7 @@ std::vector<MeasuredRecord> in_place(std::vector<MeasuredRecord> records, const 
 /// [experiment] of the records and what they say; none of both without records.
 struct Measured {
   std::string text{};
+  std::string straight{};  ///< keys of [experiment]
   RecordFindings found{};
   std::string offsets{};  ///< [[fit.parameters]] of what toes leave
 };
@@ -161,7 +162,7 @@ Measured measured(std::vector<MeasuredRecord>& records, const SpecimenRequest& r
   keys = straight_keys(found.straight.front(), takes_toe);
   const std::string offsets = takes_toe ? offset_parameters(found.straight) : "";
   found = read();
-  return {experiment_text(records, keys, reduction), found, offsets};
+  return {.straight = keys, .found = found, .offsets = offsets};
 }
 
 double share_of(const SpecimenFile& specimen) { return specimen.share.empty() ? 1.0 : evaluated(specimen.share, {}); }
@@ -218,6 +219,7 @@ Measured measured_or_none(const SpecimenFile& specimen, const SpecimenRequest& r
     for (const MeasuredRecord& record : records)
       for (const std::string& remark : record.remarks) said << fmt::format("  {}: {}\n", record.file, remark);
     guess_all(specimen, test.found, words, said);
+    test.text = experiment_text(records, test.straight, reduction_of(specimen, words));  // with what was guessed
     straight_end = straight_to * test.found.straight.front().reach();
   }
   words.numbers["has_record"] = files.empty() ? 0.0 : 1.0;

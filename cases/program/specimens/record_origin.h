@@ -14,11 +14,11 @@ namespace pfdm {
 std::string straight_keys(const StraightPart& straight, bool takes_toe);
 
 /// Adds the toe of a record whose straight part misses the origin, by more than noise moves it; as a comment where the
-/// specimen may stiffen.
+/// specimen may stiffen. Where noise may have moved it, or slack, no toe but an offset, which a fit estimates.
 void add_toe(MeasuredRecord& record, const StraightPart& straight, bool is_taken);
 
-/// [[fit.parameters]] of the offsets of records whose toe is taken off: a straight part gives its origin within noise,
-/// and a modulus about a wrong origin errs by more than its interval.
+/// [[fit.parameters]] of the offsets of records whose straight part misses the origin noticeably, with and without toe:
+/// it gives the origin within noise, and a modulus about a wrong origin errs by more than its interval.
 std::string offset_parameters(const std::vector<StraightPart>& straight);
 
 }  // namespace pfdm
