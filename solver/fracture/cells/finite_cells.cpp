@@ -10,7 +10,7 @@ namespace pfdm {
 namespace {
 
 constexpr double least_thickness = 1e-4;  // of a sheet, over that at rest: laws of principal stretches end at 0
-// Shear stiffness of the faces of closed cracks over the bulk modulus. Such a crack has no shear
+// Shear stiffness of the faces of closed cracks over the bulk modulus (of W_m). Such a crack has no shear
 // stiffness of its own. Where faces have none either, the displacements beside them are arbitrary, and the tractions
 // turn with them: Newton's method does not end on prisms, tetrahedra and polyhedra (solver/fracture/staggered.md).
 constexpr double slip_share = 1e-3;
@@ -67,10 +67,13 @@ FiniteCells::Parts FiniteCells::parts(FinitePlace place, const Tensor& H, double
   if (split_[cell]->driven_by_compression) return parts;
   const bool keeps = keeps_compression(cell);
   parts.closure = keeps ? closure : (change < 0.0 ? 1.0 : 0.0);
-  if (parts.closure == 0.0) return parts;
+  parts.taken = keeps ? closure : (volume_change(H) < 0.0 ? 1.0 : 0.0);
+  if (parts.taken == 0.0) return parts;
   // A closed crack has no shear stiffness that would make two volumes of a cell agree: its pressure bears all.
-  const double beside = moderate_bulk_modulus(material) / material.pressure_modulus();
-  parts.dilation = keeps && has_pressure(cell) ? sum(beside, parts.pressure, 0.0, {}) : material.moderate_dilation(H);
+  if (keeps && has_pressure(cell))
+    parts.dilation = sum(moderate_bulk_modulus(material) / material.pressure_modulus(), parts.pressure, 0.0, {});
+  else
+    parts.dilation = material.moderate_dilation(H);
   return parts;
 }
 
@@ -236,16 +239,19 @@ std::optional<double> FiniteCells::closing_change(Index cell, const CellMechanic
   if (!keeps_compression(cell)) return {};
   const Parts at = parts(cell, mechanics, thinned_elastic(cell, mechanics, left), left.closure);
   if (has_pressure(cell)) return at.change;
-  const Tensor excess = beside_law(cell, mechanics, at, mechanics.stress[cell], left.g);
   const Tensor F = Tensor::Identity() + mechanics.gradient[cell];
+  if (F.determinant() < least_volume) return at.change;  // turned inside out
+  const Tensor excess = beside_law(cell, mechanics, at, mechanics.stress[cell], left.g);
   const double K = (left.g + left.closure * (1.0 - left.g)) * material_[cell]->elasticity().bulk_modulus();
-  return at.change + contract(excess, F) / (3.0 * K * std::max(F.determinant(), least_volume));
+  return at.change + contract(excess, F) / (3.0 * K * F.determinant());
 }
 
+// Small changes store K/2 change^2; large ones, of cells that are distorted, would count for more than they store.
 double FiniteCells::closing_energy(Index cell, double change, const Degraded& left) const {
-  const double wrong = std::abs(left.closure - (change < 0.0 ? 1.0 : 0.0));
+  constexpr double most = 0.1;
+  const double wrong = std::abs(left.closure - (change < 0.0 ? 1.0 : 0.0)), by = std::min(std::abs(change), most);
   const double K = wrong * (1.0 - left.g) * material_[cell]->elasticity().bulk_modulus();
-  return 0.5 * K * change * change * mesh_.cell_volume[cell];
+  return 0.5 * K * by * by * mesh_.cell_volume[cell];
 }
 
 void FiniteCells::advance(const CellMechanics& mechanics, const CellField<Degraded>& left, CellHistories& to) {

@@ -6,8 +6,9 @@
 //   volumetric_deviatoric  W = g (W(F) - W_c) + W_c,  W_c = W(J^(1/3) 1) where J < 1, else 0
 //
 // Whether a crack is closed, J < 1, is held while equilibrium is found and follows from one iteration of the loop to
-// the next, as at small strain (crack_closures.h): W = g W + closure (1 - g) W_c at any J. With a pressure, which bears
-// all of a closed crack, (K_m/kappa) c U takes the place of W_c of W_m, K_m and kappa being their bulk moduli.
+// the next, as at small strain (crack_closures.h): W = g (W - closure W_c) + closure W_c at any J. With a pressure,
+// which bears all of a closed crack, (K_m/kappa) c U takes the place of W_c of W_m, K_m and kappa being their bulk
+// moduli.
 //
 // `hybrid` is driven as volumetric_deviatoric, by W - W_c, and is not variational (Ambati, Gerasimov, De Lorenzis,
 // Comput. Mech. 55 (2015) 383). What broken cells become is in finite_degradation.h.
@@ -55,7 +56,8 @@ struct FiniteEnergies {
   bool branches_drive = false;   ///< the damage
   double locked = 0.0;           ///< stored in gaps beyond half the work of their tractions, likewise
   double dilation = 0.0;         ///< W_c, where compression does not drive the damage
-  double closure = 0.0;          ///< there, the share of it that does not
+  double taken = 0.0;            ///< there, the share of it that does not
+  double closure = 0.0;          ///< the share of the pressure's that does not
   double faces = 0.0, of = 1.0;  ///< energy of the faces, at the g with which the displacements were found
   /// Share of the energies of faces, and of what a pressure is lost by faster than W_m, that drives the damage: less
   /// than 1 where branches do not.
@@ -117,10 +119,11 @@ class FiniteCells {
 
  private:
   // Undamaged, at some F_e - 1 = H: W_m, the network's, c U, that of branches, J_e - 1, and where compression does not
-  // drive the damage W_c and the share of it that does not: the closure, or with `hybrid` 1 where J < 1.
+  // drive the damage W_c and the share of it that does not: the closure, or with `hybrid` 1 where J of H < 1. `closure`
+  // is that of the pressure: with `hybrid` by `change`.
   struct Parts {
     PotentialAt moderate, network, pressure{}, dilation{}, branches{};
-    double change = 0.0, closure = 0.0;
+    double change = 0.0, taken = 0.0, closure = 0.0;
   };
   Parts parts(FinitePlace at, const Tensor& H, double change, double closure) const;
   Parts parts(FinitePlace at, const Tensor& H, double closure) const { return parts(at, H, volume_change(H), closure); }

@@ -74,6 +74,7 @@ FiniteEnergies FiniteCells::mean_energies(Index cell, const CellMechanics& mecha
           .branches = volume * at.branches.energy,
           .branches_drive = material_[cell]->drive() == PronyDrive::stored,
           .dilation = volume * at.dilation.energy,
+          .taken = at.taken,
           .closure = at.closure};
 }
 
@@ -101,12 +102,12 @@ DrivingAt FiniteCells::driving_energy(Index cell, const FiniteEnergies& at, doub
   const FiniteShare& of_pressure = by.pressure;
   const FiniteShares::Slope& as_moderate = by.pressure_as_moderate;
   const double value = by.moderate.slope * moderate + by.network.slope * at.network -
-                       off.slope * at.closure * at.dilation + driving(of_pressure.slope, as_moderate.slope) * pressure +
+                       off.slope * at.taken * at.dilation + driving(of_pressure.slope, as_moderate.slope) * pressure +
                        faces;
   if (value <= 0.0) return {};
   return {.value = value,
           .slope = by.moderate.curvature * moderate + by.network.curvature * at.network -
-                   off.curvature * at.closure * at.dilation +
+                   off.curvature * at.taken * at.dilation +
                    driving(of_pressure.curvature, as_moderate.curvature) * pressure};
 }
 

