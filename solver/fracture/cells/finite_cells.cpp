@@ -60,7 +60,7 @@ FiniteCells::FiniteCells(const Mesh& mesh, const FractureModel& model)
 FiniteCells::Parts FiniteCells::parts(FinitePlace place, const Tensor& H, double change, double closure) const {
   const Index cell = place.cell;
   const HyperelasticMaterial& material = *material_[cell];
-  Parts parts{.moderate = material.moderate_potential(H), .network = network_potential(material, H), .change = change};
+  Parts parts{.moderate = material.moderate_potential(H), .network = network_potential(material, H)};
   if (material.pressure_modulus() > 0.0)
     parts.pressure = difference(material.potential(H, change), material.moderate_potential(H, change));
   parts.branches = of_branches(place, H);
@@ -81,11 +81,10 @@ PotentialAt FiniteCells::of_branches(FinitePlace at, const Tensor& H) const {
   return histories_.has(at.cell) ? histories_.branches(at.cell).over(H, histories_.before(at)) : PotentialAt();
 }
 
-FiniteCells::Parts FiniteCells::parts(Index cell, const CellMechanics& mechanics, const Tensor& H,
-                                      double closure) const {
+// J_e - 1: that of the pressure where one is found, else that of the mean gradient.
+double FiniteCells::change_of(Index cell, const CellMechanics& mechanics, const Tensor& H) const {
   const bool is_swept = mechanics.volume_change.size() > 0 && has_pressure(cell);
-  if (!is_swept) return parts({cell}, H, closure);
-  return parts({cell}, H, free_deformation(cell, mechanics).elastic_change(mechanics.volume_change[cell]), closure);
+  return is_swept ? free_deformation(cell, mechanics).elastic_change(mechanics.volume_change[cell]) : volume_change(H);
 }
 
 PotentialAt FiniteCells::damaged(Index cell, const Parts& at, const FiniteShares& by, double g) const {
@@ -163,7 +162,7 @@ FiniteLaw FiniteCells::solid_law(FinitePlace at, const Tensor& H, const Degraded
   IsotropicElasticity sound = material.elasticity();
   if (material.pressure_modulus() > 0.0) {
     law.pressure = &material;
-    law.pressure_share = by.pressure.value + kept * (1.0 - by.pressure.value);
+    law.pressure_share = share_left(by.pressure.value, kept);
     law.pressure_modulus = material.pressure_modulus();
     law.pressure_kept = kept * (1.0 - g) * moderate_bulk_modulus(material);
     sound.lambda -= material.pressure_modulus();
@@ -237,13 +236,13 @@ Tensor FiniteCells::thinned(Index cell, const CellMechanics& mechanics, const De
 std::optional<double> FiniteCells::closing_change(Index cell, const CellMechanics& mechanics,
                                                   const Degraded& left) const {
   if (!keeps_compression(cell)) return {};
-  const Parts at = parts(cell, mechanics, thinned_elastic(cell, mechanics, left), left.closure);
-  if (has_pressure(cell)) return at.change;
-  const Tensor F = Tensor::Identity() + mechanics.gradient[cell];
-  if (F.determinant() < least_volume) return at.change;  // turned inside out
-  const Tensor excess = beside_law(cell, mechanics, at, mechanics.stress[cell], left.g);
-  const double K = (left.g + left.closure * (1.0 - left.g)) * material_[cell]->elasticity().bulk_modulus();
-  return at.change + contract(excess, F) / (3.0 * K * F.determinant());
+  const Tensor H = thinned_elastic(cell, mechanics, left), F = Tensor::Identity() + mechanics.gradient[cell];
+  const double change = change_of(cell, mechanics, H);
+  if (has_pressure(cell) || F.determinant() < least_volume) return change;  // or turned inside out
+  const Tensor excess =
+      beside_law(cell, mechanics, parts({cell}, H, change, left.closure), mechanics.stress[cell], left.g);
+  const double K = share_left(left.g, left.closure) * material_[cell]->elasticity().bulk_modulus();
+  return change + contract(excess, F) / (3.0 * K * F.determinant());
 }
 
 // Small changes store K/2 change^2; large ones, of cells that are distorted, would count for more than they store.

@@ -118,16 +118,19 @@ class FiniteCells {
                        const Vector& plane_normal) const;
 
  private:
-  // Undamaged, at some F_e - 1 = H: W_m, the network's, c U, that of branches, J_e - 1, and where compression does not
+  // Undamaged, at some F_e - 1 = H: W_m, the network's, c U, that of branches, and where compression does not
   // drive the damage W_c and the share of it that does not: the closure, or with `hybrid` 1 where J of H < 1. `closure`
   // is that of the pressure: with `hybrid` by `change`.
   struct Parts {
     PotentialAt moderate, network, pressure{}, dilation{}, branches{};
-    double change = 0.0, taken = 0.0, closure = 0.0;
+    double taken = 0.0, closure = 0.0;
   };
   Parts parts(FinitePlace at, const Tensor& H, double change, double closure) const;
   Parts parts(FinitePlace at, const Tensor& H, double closure) const { return parts(at, H, volume_change(H), closure); }
-  Parts parts(Index cell, const CellMechanics& mechanics, const Tensor& H, double closure) const;
+  Parts parts(Index cell, const CellMechanics& mechanics, const Tensor& H, double closure) const {
+    return parts({cell}, H, change_of(cell, mechanics, H), closure);
+  }
+  double change_of(Index cell, const CellMechanics& mechanics, const Tensor& H) const;
   FiniteEnergies mean_energies(Index cell, const CellMechanics& mechanics, const Parts& at) const;
   Tensor beside_law(Index cell, const CellMechanics& mechanics, const Parts& at, const Tensor& P, double g) const;
   double beside_mean(Index cell, const CellMechanics& mechanics, const Parts& at, double g) const;
@@ -144,6 +147,8 @@ class FiniteCells {
   Tensor traction_stress(Index cell, const CellMechanics& mechanics, const Degraded& left,
                          const Vector& plane_normal) const;
   bool keeps_compression(Index cell) const { return split_[cell]->keeps_compression; }
+  // Of what damage leaves `share` of, with a closed crack that keeps the part `kept` of the rest.
+  static double share_left(double share, double kept) { return share + kept * (1.0 - share); }
   // Share of a cell's W_c that the split keeps from the degradation.
   double kept(Index cell, const auto& at) const { return keeps_compression(cell) ? at.closure : 0.0; }
   PotentialAt damaged(Index cell, const Parts& at, const FiniteShares& by, double g) const;

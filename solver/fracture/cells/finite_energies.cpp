@@ -82,8 +82,8 @@ double FiniteCells::stored_energy(Index cell, const FiniteEnergies& at, double g
   const FiniteShares by = finite_shares(*material_[cell], g);
   const double kept = this->kept(cell, at);
   const double density = by.moderate.value * (at.moderate + at.branches + at.locked) + by.network.value * at.network +
-                         kept * (1.0 - g) * at.dilation +
-                         (by.pressure.value + kept * (1.0 - by.pressure.value)) * at.pressure + at.faces + at.moments;
+                         kept * (1.0 - g) * at.dilation + share_left(by.pressure.value, kept) * at.pressure + at.faces +
+                         at.moments;
   return mesh_.cell_volume[cell] * density;
 }
 
@@ -118,7 +118,7 @@ Tensor FiniteCells::undamaged_biot_stress(Index cell, const CellMechanics& mecha
   const FiniteShares by = finite_shares(*material_[cell], g);
   const double kept = this->kept(cell, at), share = by.pressure.value / g;
   const Tensor whole = (by.moderate.value * at.moderate.stress + by.network.value * at.network.stress) / g;
-  return biot_stress(H, whole + (share + kept * (1.0 - share)) * at.pressure.stress);
+  return biot_stress(H, whole + share_left(share, kept) * at.pressure.stress);
 }
 
 // The deformation gradient for the Cauchy stress. A broken sheet, a network, has next to no thickness: it counts as
