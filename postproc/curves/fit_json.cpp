@@ -16,6 +16,10 @@ using Json = nlohmann::ordered_json;
 
 constexpr int format = 1;
 
+Json to_json(const PosteriorInterval& interval) {
+  return {{"median", interval.median}, {"lower", interval.lower}, {"upper", interval.upper}};
+}
+
 Json to_json(const std::vector<FittedParameter>& parameters) {
   Json list = Json::array();
   for (const FittedParameter& p : parameters) {
@@ -37,19 +41,22 @@ Json to_json(const std::vector<FittedParameter>& parameters) {
                                 {"upper", p.profile->upper},
                                 {"lower_open", p.profile->lower_open},
                                 {"upper_open", p.profile->upper_open}};
-    if (p.posterior)
-      list.back()["posterior"] = {
-          {"median", p.posterior->median}, {"lower", p.posterior->lower}, {"upper", p.posterior->upper}};
+    if (p.posterior) list.back()["posterior"] = to_json(*p.posterior);
   }
   return list;
 }
 
 Json to_json(const PosteriorFindings& posterior) {
-  return {{"file", posterior.file},
-          {"emulator_error", posterior.emulator_error},
-          {"effective_samples", posterior.effective},
-          {"evaluations", posterior.evaluations},
-          {"law_files", posterior.law_files}};
+  Json json = {{"file", posterior.file},
+               {"emulator_error", posterior.emulator_error},
+               {"effective_samples", posterior.effective},
+               {"evaluations", posterior.evaluations},
+               {"law_files", posterior.law_files}};
+  if (const auto& discrepancy = posterior.discrepancy)
+    json["discrepancy"] = {{"file", discrepancy->file},
+                           {"amplitude_N", to_json(discrepancy->amplitude)},
+                           {"length_m", to_json(discrepancy->length)}};
+  return json;
 }
 
 Json to_json(const std::vector<FitIteration>& iterations) {
@@ -123,11 +130,20 @@ std::optional<FittedProfile> profile_in(const Json& parameter) {
                        .upper_open = p.at("upper_open")};
 }
 
+PosteriorInterval interval_in(const Json& p) {
+  return {.median = number_of(p.at("median")), .lower = number_of(p.at("lower")), .upper = number_of(p.at("upper"))};
+}
+
 std::optional<PosteriorInterval> posterior_of(const Json& parameter) {
   if (!parameter.contains("posterior")) return std::nullopt;
-  const Json& p = parameter.at("posterior");
-  return PosteriorInterval{
-      .median = number_of(p.at("median")), .lower = number_of(p.at("lower")), .upper = number_of(p.at("upper"))};
+  return interval_in(parameter.at("posterior"));
+}
+
+std::optional<DiscrepancyFindings> discrepancy_in(const Json& posterior) {
+  if (!posterior.contains("discrepancy")) return std::nullopt;
+  const Json& d = posterior.at("discrepancy");
+  return DiscrepancyFindings{
+      .file = d.at("file"), .amplitude = interval_in(d.at("amplitude_N")), .length = interval_in(d.at("length_m"))};
 }
 
 std::optional<PosteriorFindings> posterior_in(const Json& json) {
@@ -137,7 +153,8 @@ std::optional<PosteriorFindings> posterior_in(const Json& json) {
                            .emulator_error = number_of(p.at("emulator_error")),
                            .effective = number_of(p.at("effective_samples")),
                            .evaluations = whole_number<int>(p.at("evaluations")),
-                           .law_files = p.at("law_files")};
+                           .law_files = p.at("law_files"),
+                           .discrepancy = discrepancy_in(p)};
 }
 
 std::vector<FittedParameter> parameters_in(const Json& list) {

@@ -42,6 +42,13 @@ struct FittedParameter {
   double moved_by_finer = std::numeric_limits<double>::quiet_NaN();
 };
 
+/// A smooth discrepancy of the model in the posterior (solver/calibration/residual_likelihood.h).
+struct DiscrepancyFindings {
+  std::string file;               ///< over displacement
+  PosteriorInterval amplitude{};  ///< of its force [N]
+  PosteriorInterval length{};     ///< over which it varies [m]
+};
+
 /// What the posterior of all parameters together rests on.
 struct PosteriorFindings {
   std::string file;                      ///< of samples
@@ -49,6 +56,7 @@ struct PosteriorFindings {
   double effective = 0.0;                ///< number of independent samples
   int evaluations = 0;                   ///< of the model
   std::vector<std::string> law_files{};  ///< of traction over separation, one for each interface
+  std::optional<DiscrepancyFindings> discrepancy = std::nullopt;
 };
 
 /// What a fit, or a stage of one, found.

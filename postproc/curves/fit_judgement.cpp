@@ -191,12 +191,13 @@ void question(FitFindings& found, std::string reason) {
 
 void withhold_intervals(FitFindings& found) {
   found.correlated.clear();
-  found.posterior.reset();
+  const bool holds_discrepancy = found.posterior && found.posterior->discrepancy;
+  if (!holds_discrepancy) found.posterior.reset();
   for (FittedParameter& p : found.parameters) {
     p.standard_error = p.lower = p.upper = std::numeric_limits<double>::quiet_NaN();
     p.widened_by = 1.0;
     p.profile.reset();
-    p.posterior.reset();
+    if (!holds_discrepancy) p.posterior.reset();
   }
 }
 

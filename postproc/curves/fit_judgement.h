@@ -35,6 +35,7 @@ bool judge(FitFindings& found, JudgedData data);
 
 /// One more reason: the findings are questionable at best, and lose their intervals.
 void question(FitFindings& found, std::string reason);
+/// All of them but those of a posterior that holds a discrepancy of the model.
 void withhold_intervals(FitFindings& found);
 
 /// Moves the end of an interval of noise alone that lies on the side of what a finer discretisation says, by as much,

@@ -189,4 +189,30 @@ void add_statistics(const ScaledModel& model, const Eigen::VectorXd& u, FitResul
   warn_of_poor_estimates(model, result);
 }
 
+double quantile(std::vector<double> values, double share) {
+  const auto at = static_cast<std::ptrdiff_t>(std::lround(share * static_cast<double>(values.size() - 1)));
+  std::nth_element(values.begin(), values.begin() + at, values.end());
+  return values[at];
+}
+
+double effective_number(const std::vector<Eigen::VectorXd>& chain) {
+  constexpr std::size_t n_stretches = 20;
+  const std::size_t length = chain.size() / n_stretches;
+  const auto n = static_cast<double>(chain.size());
+  double least = n;
+  for (Eigen::Index j = 0; j < chain.front().size(); ++j) {
+    double mean = 0.0, squares = 0.0, of_stretches = 0.0;
+    for (const Eigen::VectorXd& z : chain) mean += z[j] / n;
+    for (const Eigen::VectorXd& z : chain) squares += std::pow(z[j] - mean, 2) / n;
+    for (std::size_t s = 0; s < n_stretches; ++s) {
+      double of_stretch = 0.0;
+      for (std::size_t i = 0; i < length; ++i) of_stretch += chain[s * length + i][j] / static_cast<double>(length);
+      of_stretches += std::pow(of_stretch - mean, 2) / static_cast<double>(n_stretches - 1);
+    }
+    if (!(squares > 0.0)) return 0.0;
+    least = std::min(least, n * squares / std::max(static_cast<double>(length) * of_stretches, squares));
+  }
+  return least;
+}
+
 }  // namespace pfdm

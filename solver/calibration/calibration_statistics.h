@@ -3,6 +3,8 @@
 
 #include "solver/calibration/calibration_scale.h"
 
+#include <vector>
+
 namespace pfdm {
 
 /// Fills in estimates, covariance, correlation, warnings, residuals and sums at the scaled parameters u. Throws
@@ -13,5 +15,10 @@ void add_statistics(const ScaledModel& model, const Eigen::VectorXd& u, FitResul
 /// The value that Student's t with so many degrees of freedom exceeds in size with the probability 1 - confidence.
 double student_quantile(double confidence, double degrees_of_freedom);
 double student_95(double degrees_of_freedom);
+/// The value that this share of the values, one at least, does not exceed.
+double quantile(std::vector<double> values, double share);
+/// Number of independent samples that a chain of correlated ones is as good as, of the coordinate that has fewest: by
+/// how much means over stretches of the chain vary.
+double effective_number(const std::vector<Eigen::VectorXd>& chain);
 
 }  // namespace pfdm

@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <numbers>
 #include <random>
 #include <utility>
@@ -38,15 +39,23 @@ class Sampler {
     axes_ = factor.matrixL();
     centre_ = VectorXd(k);
     for (Eigen::Index j = 0; j < k; ++j) centre_[j] = in_fit(j, result.estimates[j].value);
-    n_residuals_ = static_cast<double>(result.residuals.size());
-    freedom_ = std::max(1.0, n_residuals_ - static_cast<double>(k));
-    variance_ = problem.noise_is_known ? 1.0 : result.sum_of_squares / freedom_;
+    const auto n_residuals = static_cast<double>(result.residuals.size());
+    noise_ = {.is_known = problem.noise_is_known,
+              .freedom = std::max(1.0, n_residuals - static_cast<double>(k)),
+              .n_parameters = static_cast<double>(k),
+              .widening = how.widening};
+    variance_ = problem.noise_is_known ? 1.0 : result.sum_of_squares / noise_.freedom;
+    if (how.places)
+      begin_with_discrepancy(result);
+    else
+      likelihood_ = std::make_unique<IndependentResiduals>(noise_);
   }
 
   Posterior sample() {
     run(first_points());
     for (int batch = 1;; ++batch) {
       emulator_.fit(variance_);
+      likelihood_->emulate(emulator_.coefficients(), emulator_.variances());
       walk();
       found_.emulator_error = error_of_logarithm();
       const bool is_enough = found_.emulator_error < how_.enough && !found_.is_cut;
@@ -55,10 +64,39 @@ class Sampler {
     }
     found_.samples.reserve(chain_.size());
     for (const VectorXd& z : chain_) found_.samples.push_back(values_at(z));
+    if (discrepancy_ != nullptr) found_.discrepancy = discrepancy_of_model();
     return found_;
   }
 
  private:
+  // With a discrepancy the data say less: points lie farther apart, about other estimates.
+  void begin_with_discrepancy(const FitResult& result) {
+    noise_.widening = 1.0;
+    auto likelihood = std::make_unique<ResidualsWithDiscrepancy>(noise_, *how_.places);
+    const VectorXd residuals = VectorXd::Map(result.residuals.data(), std::ssize(result.residuals));
+    VectorXd prior = VectorXd::Zero(centre_.size());
+    for (Eigen::Index j = 0; j < prior.size(); ++j)
+      if (const auto& of = problem_.parameters[j].prior) prior[j] = variance_ * std::pow(of->standard_deviation, -2);
+    const ResidualsWithDiscrepancy::Linear linear = likelihood->linear(residuals, result.derivatives, prior);
+    axes_ = Eigen::LLT<MatrixXd>(linear.covariance).matrixL();
+    variance_ = linear.variance;
+    constexpr double kept = 0.01;  // of the estimate's distance from a bound
+    for (Eigen::Index j = 0; j < centre_.size(); ++j) {
+      const double at = kept * centre_[j], moved = centre_[j] + linear.change[j];
+      centre_[j] = std::clamp(moved, at + (1.0 - kept) * in_fit(j, problem_.parameters[j].lower),
+                              at + (1.0 - kept) * in_fit(j, problem_.parameters[j].upper));
+    }
+    discrepancy_ = likelihood.get();
+    likelihood_ = std::move(likelihood);
+  }
+  ModelDiscrepancy discrepancy_of_model() const {
+    constexpr std::size_t most = 400;
+    std::vector<VectorXd> phis;
+    const std::size_t n = std::min(most, chain_.size());
+    for (std::size_t i = 0; i < n; ++i) phis.push_back(emulator_.monomials_at(chain_[i * chain_.size() / n]));
+    return discrepancy_->found(phis, how_.seed);
+  }
+
   std::size_t n_in_batch() const {
     const auto k = problem_.parameters.size();
     return (k + 1) * (k + 2);  // twice the coefficients of a polynomial of second degree
@@ -70,10 +108,8 @@ class Sampler {
   std::vector<double> values_at(const VectorXd& z) const {
     const VectorXd x = centre_ + axes_ * z;
     std::vector<double> values(problem_.parameters.size());
-    for (std::size_t j = 0; j < values.size(); ++j) {
-      const double at = x[j];
-      values[j] = problem_.parameters[j].log_scale ? std::exp(at) : at;
-    }
+    for (std::size_t j = 0; j < values.size(); ++j)
+      values[j] = problem_.parameters[j].log_scale ? std::exp(x[j]) : x[j];
     return values;
   }
   bool is_within_bounds(const std::vector<double>& values) const {
@@ -96,9 +132,8 @@ class Sampler {
       points.push_back(z);
       points.emplace_back(-z);
     }
-    const double w = how_.widening;
-    const double tails =
-        problem_.noise_is_known ? 1.0 : student_95(std::max(1.0, freedom_ / (w * w))) / student_95(1e9);
+    const double w = noise_.widening;
+    const double tails = noise_.is_known ? 1.0 : student_95(std::max(1.0, noise_.freedom / (w * w))) / student_95(1e9);
     for (VectorXd& z : points) z = within_bounds(reach_of_first * w * tails * z.cwiseQuotient(most));
     return points;
   }
@@ -147,22 +182,12 @@ class Sampler {
     reach_ = beyond * emulator_.reach();
   }
 
-  // Where the noise is not known, Student's t with the degrees of freedom that correlation leaves.
-  double exponent() const {
-    const double w = how_.widening;
-    return freedom_ / (w * w) + static_cast<double>(centre_.size());
-  }
-  double logarithm_of(double sum_of_squares) const {
-    const double w = how_.widening;
-    if (problem_.noise_is_known) return -0.5 * sum_of_squares / (w * w);
-    return -0.5 * exponent() * std::log(sum_of_squares);
-  }
   double logarithm(const VectorXd& z) const {
     constexpr double none = -std::numeric_limits<double>::infinity();
     if ((z.array().abs() > reach_.array()).any()) return none;
     const std::vector<double> values = values_at(z);
     if (!is_within_bounds(values)) return none;
-    double sum = logarithm_of(std::max(emulator_.sum_of_squares(z), 1e-300));
+    double sum = likelihood_->logarithm_at(emulator_.monomials_at(z));
     for (std::size_t j = 0; j < values.size(); ++j) sum -= 0.5 * prior_term(problem_.parameters[j], values[j]);
     return sum;
   }
@@ -171,9 +196,9 @@ class Sampler {
   double error_of_logarithm() const {
     constexpr double far = 8.0;  // below the largest logarithm
     std::vector<double> given, errors;
-    for (Eigen::Index i = 0; i < emulator_.given().size(); ++i) {
-      given.push_back(logarithm_of(std::max(emulator_.given()[i], 1e-300)));
-      errors.push_back(logarithm_of(std::max(emulator_.left_out()[i], 1e-300)) - given.back());
+    for (Eigen::Index i = 0; i < emulator_.given().rows(); ++i) {
+      given.push_back(likelihood_->logarithm_of(emulator_.given().row(i)));
+      errors.push_back(likelihood_->logarithm_of(emulator_.left_out().row(i)) - given.back());
     }
     const double best = std::ranges::max(given);
     double n = 0.0, sum = 0.0, squares = 0.0;
@@ -242,28 +267,7 @@ class Sampler {
     std::size_t edge = 0;
     for (const VectorXd& z : chain_) edge += (z.array().abs() > 0.95 * reach_.array()).any() ? 1 : 0;
     found_.is_cut = static_cast<double>(edge) > 0.01 * static_cast<double>(chain_.size());
-    found_.effective = effective_number();
-  }
-
-  // By how much means over stretches of the chain vary, against those of as many independent samples.
-  double effective_number() const {
-    constexpr std::size_t n_stretches = 20;
-    const std::size_t length = chain_.size() / n_stretches;
-    const auto n = static_cast<double>(chain_.size());
-    double least = n;
-    for (Eigen::Index j = 0; j < centre_.size(); ++j) {
-      double mean = 0.0, squares = 0.0, of_stretches = 0.0;
-      for (const VectorXd& z : chain_) mean += z[j] / n;
-      for (const VectorXd& z : chain_) squares += std::pow(z[j] - mean, 2) / n;
-      for (std::size_t s = 0; s < n_stretches; ++s) {
-        double of_stretch = 0.0;
-        for (std::size_t i = 0; i < length; ++i) of_stretch += chain_[s * length + i][j] / static_cast<double>(length);
-        of_stretches += std::pow(of_stretch - mean, 2) / static_cast<double>(n_stretches - 1);
-      }
-      if (!(squares > 0.0)) return 0.0;
-      least = std::min(least, n * squares / std::max(static_cast<double>(length) * of_stretches, squares));
-    }
-    return least;
+    found_.effective = effective_number(chain_);
   }
 
   const FitProblem& problem_;
@@ -271,19 +275,16 @@ class Sampler {
   std::mt19937_64 engine_;
   MatrixXd axes_;            // of the linear interval's ellipsoid, a standard error long
   VectorXd centre_, reach_;  // in what is fitted; of the emulator, along the axes
-  double n_residuals_ = 0.0, freedom_ = 1.0, variance_ = 1.0;
+  ResidualNoise noise_;
+  double variance_ = 1.0;  // of the noise
+  std::unique_ptr<ResidualLikelihood> likelihood_;
+  const ResidualsWithDiscrepancy* discrepancy_ = nullptr;  // the likelihood, where the model may have one
   ResidualEmulator emulator_;
   std::vector<VectorXd> chain_;
   Posterior found_;
 };
 
 }  // namespace
-
-double quantile(std::vector<double> values, double share) {
-  const auto at = static_cast<std::ptrdiff_t>(std::lround(share * static_cast<double>(values.size() - 1)));
-  std::nth_element(values.begin(), values.begin() + at, values.end());
-  return values[at];
-}
 
 double Posterior::quantile(std::size_t k, double share) const {
   std::vector<double> values;

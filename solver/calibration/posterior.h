@@ -11,11 +11,15 @@
 // left out of the fit, one at a time, counts as noise of the residual: where a curve jumps, that is much, and the
 // posterior is wide. Chains: an ensemble whose walkers stretch towards each other (Goodman, Weare,
 // Commun. Appl. Math. Comput. Sci. 5 (2010) 65).
+//
+// Where places are given, the model may have a discrepancy, a smooth function of them (residual_likelihood.h).
 
 #include "solver/calibration/calibration.h"
+#include "solver/calibration/residual_likelihood.h"
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <vector>
 
 namespace pfdm {
@@ -28,10 +32,8 @@ struct PosteriorSettings {
   int samples = 4000;
   std::uint64_t seed = 1;
   std::function<void(int points)> running = {};  ///< before each batch
+  std::optional<ResidualPlaces> places = {};     ///< of the residuals, where the model may have a discrepancy
 };
-
-/// The value that this share of the values, one at least, does not exceed.
-double quantile(std::vector<double> values, double share);
 
 struct Posterior {
   std::vector<std::vector<double>> samples;  ///< parameters, in the order of the problem
@@ -39,6 +41,7 @@ struct Posterior {
   double effective = 0.0;       ///< number of independent samples, of the parameter that has fewest
   bool is_cut = false;          ///< it reaches to where the emulator has no points
   int evaluations = 0, failures = 0;  ///< of the model; points at which it does not converge, and which do not count
+  std::optional<ModelDiscrepancy> discrepancy = {};  ///< where the model may have one
 
   double quantile(std::size_t k, double share) const;  ///< of the samples of parameter k
 };

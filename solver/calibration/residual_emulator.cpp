@@ -55,21 +55,16 @@ void ResidualEmulator::fit(double variance) {
   MatrixXd normal = A.transpose() * A;
   normal.diagonal().array() += 1e-10 * normal.diagonal().maxCoeff();
   const MatrixXd inverse = normal.ldlt().solve(MatrixXd::Identity(q, q));
-  const MatrixXd C = inverse * (A.transpose() * R);
+  coefficients_ = inverse * (A.transpose() * R);
   const VectorXd leverage = (A * inverse).cwiseProduct(A).rowwise().sum();
   const MatrixXd misses =
-      (1.0 - leverage.array()).max(1e-3).inverse().matrix().asDiagonal() * (R - A * C);  // one left out
-  const VectorXd weight =
-      (1.0 + misses.colwise().squaredNorm().transpose().array() / (static_cast<double>(n) * variance)).inverse();
-  squares_ = C * weight.asDiagonal() * C.transpose();
-  given_ = R.rowwise().squaredNorm();
-  left_out_ = (R - misses).rowwise().squaredNorm();
+      (1.0 - leverage.array()).max(1e-3).inverse().matrix().asDiagonal() * (R - A * coefficients_);  // one left out
+  variances_ = 1.0 + misses.colwise().squaredNorm().transpose().array() / (static_cast<double>(n) * variance);
+  left_out_ = R - misses;
+  given_ = std::move(R);
 }
 
-double ResidualEmulator::sum_of_squares(const VectorXd& z) const {
-  const VectorXd phi = monomials(z, degree_);
-  return phi.dot(squares_ * phi);
-}
+VectorXd ResidualEmulator::monomials_at(const VectorXd& z) const { return monomials(z, degree_); }
 
 Eigen::Index ResidualEmulator::n_monomials(int degree) const {
   return monomials(VectorXd::Zero(n_coordinates_), degree).size();

@@ -21,11 +21,14 @@ class ResidualEmulator {
   /// Fits the polynomials to all points; `variance`: of the noise.
   void fit(double variance);
 
-  /// Sum of squares of the residuals, each over 1 + its own error over the noise.
-  double sum_of_squares(const Eigen::VectorXd& z) const;
-  /// Sums of squares of the points, of plain residuals, and each by the polynomials through the others.
-  const Eigen::VectorXd& given() const { return given_; }
-  const Eigen::VectorXd& left_out() const { return left_out_; }
+  /// Products of the coordinates at z; the residuals there are coefficients()^T times these.
+  Eigen::VectorXd monomials_at(const Eigen::VectorXd& z) const;
+  const Eigen::MatrixXd& coefficients() const { return coefficients_; }
+  /// Variance of each residual over that of the noise: 1, and what the polynomials miss of points that are left out.
+  const Eigen::VectorXd& variances() const { return variances_; }
+  /// Residuals of the points, one a row, and each by the polynomials through the others.
+  const Eigen::MatrixXd& given() const { return given_; }
+  const Eigen::MatrixXd& left_out() const { return left_out_; }
 
  private:
   Eigen::Index n_monomials(int degree) const;
@@ -33,8 +36,8 @@ class ResidualEmulator {
   Eigen::Index n_coordinates_;
   int degree_ = 2;
   std::vector<Eigen::VectorXd> points_, residuals_;
-  Eigen::MatrixXd squares_;
-  Eigen::VectorXd given_, left_out_;
+  Eigen::MatrixXd coefficients_, given_, left_out_;
+  Eigen::VectorXd variances_;
 };
 
 }  // namespace pfdm

@@ -19,16 +19,20 @@ std::string moved_text(const FittedParameter& p) {
 }
 
 std::string verdict_text(const FitFindings& found) {
-  return fmt::format("{}{}", name_of(found.verdict), is_sound(found.verdict) ? "" : ", no intervals");
+  if (is_sound(found.verdict)) return std::string(name_of(found.verdict));
+  return fmt::format("{}, {}", name_of(found.verdict),
+                     found.posterior ? "intervals with a discrepancy of the model only" : "no intervals");
 }
 
 void say_verdict(const FitFindings& found, const Session& session) {
   for (const std::string& warning : found.warnings) session.log.warn(warning);
   for (const std::string& reason : found.reasons) session.log.warn(reason);
   const bool sound = is_sound(found.verdict);
-  session.log.say(
-      fmt::format("verdict: {}{}", name_of(found.verdict),
-                  sound ? "" : "; see the warnings above. The estimates have no intervals, which would not hold"));
+  const char* without = found.posterior ? "; see the warnings above. Only the posterior, which holds a discrepancy of "
+                                          "the model, gives intervals"
+                                        : "; see the warnings above. The estimates have no intervals, which would not "
+                                          "hold";
+  session.log.say(fmt::format("verdict: {}{}", name_of(found.verdict), sound ? "" : without));
   if (!sound && session.strict)
     throw ComputationError(fmt::format("the fit is {}: {}", name_of(found.verdict), found.reasons.front()));
 }

@@ -135,9 +135,9 @@ const KeyTable& curve_fit_keys() {
            {stored<&FitSettings::spread>(
                 "spread", number(spread_range),
                 "Random points lie within the factors exp(-spread) and exp(spread) of the first guess.", "1"),
-            {"intervals", choice("kind of intervals", {"linear", "profile", "posterior"}), "\"linear\"",
-             "Confidence intervals from derivatives; by profile likelihood, or the posterior of the parameters, as "
-             "well."},
+            {"intervals", choice("kind of intervals", {"linear", "profile", "posterior", "discrepancy"}), "\"linear\"",
+             "Intervals from derivatives; by profile likelihood, or the posterior of the parameters as well, also with "
+             "a smooth discrepancy of the model."},
             finer_key("none: the error of the mesh is not told"),
             {"coarse", names(value_type()), "none: the case itself is run at every step",
              "Other values of keys, as a coarser mesh, with which the fit is made; the case itself is run at its "

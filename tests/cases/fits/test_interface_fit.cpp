@@ -98,6 +98,14 @@ Table table_of(const ReportPage& page, const std::string& caption) {
   throw std::runtime_error("the page has no table \"" + caption + "\"");
 }
 
+std::vector<std::string> captions_of(const ReportPage& page) {
+  std::vector<std::string> captions;
+  for (const PageRow& row : page.rows)
+    for (const PageBlock& block : row.blocks)
+      if (const auto* chart = std::get_if<Chart>(&block)) captions.push_back(chart->caption);
+  return captions;
+}
+
 TEST(InterfaceFit, FindsTheLineThatTheLawIsAndExportsIt) {
   const TemporaryCase directory(with_fit(first_guess));
   const Straight line = measure(directory);
@@ -193,13 +201,9 @@ TEST(InterfaceFit, HasALawWithABand) {
   }
   const ReportPage page = page_of(directory, fit["case_hash"]);
   EXPECT_EQ(table_of(page, "Fit: sound").rows[0].back(), "posterior: median, interval");
-  std::vector<std::string> captions;
-  for (const PageRow& row : page.rows)
-    for (const PageBlock& block : row.blocks)
-      if (const auto* chart = std::get_if<Chart>(&block)) captions.push_back(chart->caption);
-  EXPECT_THAT(captions, testing::IsSupersetOf({testing::Eq("Law of \"glue\" in opening, with its posterior"),
-                                               testing::Eq("Posterior of interface[0].strength [MPa]"),
-                                               testing::Eq("Posterior: samples")}));
+  EXPECT_THAT(captions_of(page), testing::IsSupersetOf({testing::Eq("Law of \"glue\" in opening, with its posterior"),
+                                                        testing::Eq("Posterior of interface[0].strength [MPa]"),
+                                                        testing::Eq("Posterior: samples")}));
 }
 
 // Blocks of half the cells and of stone that is 0.7 times as stiff lead the fit: by themselves they would be 3 % off.

@@ -130,7 +130,9 @@ Table estimates_table(const FitReport& fit) {
       .rows = {{"parameter", "first guess", "estimate", fmt::format("{:g} % interval", 100.0 * fit.confidence)}},
       .has_header = true};
   if (has_profiles) table.rows.front().emplace_back("by profile likelihood");
-  if (fit.found.posterior) table.rows.front().emplace_back("posterior: median, interval");
+  if (const auto& posterior = fit.found.posterior)
+    table.rows.front().emplace_back(posterior->discrepancy ? "posterior with discrepancy: median, interval"
+                                                           : "posterior: median, interval");
   for (const FittedParameter& p : parameters) {
     table.rows.push_back({p.name, value_text(p.first_guess, p.unit), value_text(p.estimate, p.unit),
                           between_text(p.lower, p.upper, p.unit)});

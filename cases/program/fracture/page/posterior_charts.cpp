@@ -81,11 +81,30 @@ Chart law_chart(const CsvTable& table) {
                      {.label = "estimates", .x = at, .y = in_unit(estimate, y), .colour = 0}}};
 }
 
+Chart discrepancy_chart(const CsvTable& table) {
+  const std::vector<double>&at = table.column("displacement_m"), &median = table.column("median_force_N"),
+        &lower = table.column("lower_force_N"), &upper = table.column("upper_force_N");
+  const DisplayUnit x = common_unit({{at}}, "m"), y = common_unit({{lower, upper}}, "N");
+  const std::vector<double> places = in_unit(at, x);
+  return {.caption = "What the model lacks: measured less computed force, by the posterior",
+          .x = {.title = fmt::format("displacement [{}]", x.name)},
+          .y = {.title = fmt::format("force [{}]", y.name)},
+          .series = {{.label = "95 % of the posterior",
+                      .x = places,
+                      .y = in_unit(lower, y),
+                      .style = SeriesStyle::band,
+                      .colour = 7,
+                      .upper = in_unit(upper, y)},
+                     {.label = "median", .x = places, .y = in_unit(median, y), .colour = 0}}};
+}
+
 }  // namespace
 
 std::vector<Chart> posterior_charts(const FitReport& fit, const std::filesystem::path& results) {
   std::vector<Chart> charts;
   for (const std::string& file : fit.found.posterior->law_files) charts.push_back(law_chart(read_csv(results / file)));
+  if (const auto& discrepancy = fit.found.posterior->discrepancy)
+    charts.push_back(discrepancy_chart(read_csv(results / discrepancy->file)));
   const CsvTable table = read_csv(results / fit.found.posterior->file);
   std::vector<Samples> samples;
   for (const FittedParameter& p : fit.found.parameters)

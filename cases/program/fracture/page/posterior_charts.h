@@ -9,8 +9,9 @@
 
 namespace pfdm {
 
-/// Laws of interfaces with their bands; the density of each parameter, and the samples of each pair, of up to four of
-/// them. Of a fit that has a posterior. Throws InputError for a file of it that is missing or damaged.
+/// Laws of interfaces with their bands; the discrepancy of the model, where the posterior holds one; the density of
+/// each parameter, and the samples of each pair, of up to four of them. Of a fit that has a posterior. Throws
+/// InputError for a file of it that is missing or damaged.
 std::vector<Chart> posterior_charts(const FitReport& fit, const std::filesystem::path& results);
 
 }  // namespace pfdm

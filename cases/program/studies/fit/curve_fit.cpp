@@ -226,16 +226,24 @@ FitStage CurveFit::fit_stage(const CurveFitStage& stage) {
   warn_of_steps(done, found.found);
   const bool is_last = &stage == &job_.settings.stages.back();
   if (is_last) found.found.sensitivity_file = add_sensitivity(done, found.found);
-  const bool is_by_profile = job_.settings.intervals == Intervals::profile;
-  if (is_sound(found.found.verdict) && !rests_on_doubts(stage)) try {
-      if (is_by_profile) add_profiles(done, found.found);
-      if (job_.settings.intervals == Intervals::posterior && is_last) add_posterior(done, found.found);
-    } catch (const NoConvergence& error) {
-      found.found.warnings.push_back(
-          fmt::format("without {}: {}", is_by_profile ? "profiles" : "a posterior", error.what()));
-    }
+  add_other_intervals(done, found.found);
   for (const std::size_t j : stage.parameters) is_doubtful_[j] = !is_sound(found.found.verdict);
   return found;
+}
+
+void CurveFit::add_other_intervals(const DoneStage& done, FitFindings& found) {
+  const Intervals wanted = job_.settings.intervals;
+  const bool is_allowed =
+      is_sound(found.verdict) || (wanted == Intervals::discrepancy && found.verdict == Verdict::questionable);
+  if (!is_allowed || rests_on_doubts(done.stage)) return;
+  const bool is_last = &done.stage == &job_.settings.stages.back();
+  try {
+    if (wanted == Intervals::profile) add_profiles(done, found);
+    if ((wanted == Intervals::posterior || wanted == Intervals::discrepancy) && is_last) add_posterior(done, found);
+  } catch (const NoConvergence& error) {
+    found.warnings.push_back(
+        fmt::format("without {}: {}", wanted == Intervals::profile ? "profiles" : "a posterior", error.what()));
+  }
 }
 
 bool CurveFit::rests_on_doubts(const CurveFitStage& stage) const {

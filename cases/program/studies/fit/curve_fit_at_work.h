@@ -192,6 +192,8 @@ class CurveFit {
   /// A table of how much each parameter of the last stage moves the computed curve at the points of the first specimen;
   /// the name of its file, empty without such points. In curve_fit_sensitivity.cpp.
   std::string add_sensitivity(const DoneStage& done, const FitFindings& found);
+  /// Those that [fit] `intervals` names beside the linear ones, of a fit that may have them.
+  void add_other_intervals(const DoneStage& done, FitFindings& found);
   /// Of the parameters of the last stage, with its tables; in curve_fit_posterior.cpp. Throws NoConvergence.
   void add_posterior(const DoneStage& done, FitFindings& found);
   /// Tables of how the law of each interface varies over these samples of a stage's parameters; the names of their

@@ -108,6 +108,20 @@ void require_each_in_a_stage(const CurveFitSettings& settings, const ConfigTable
       throw fit.at("stages").error(fmt::format("no stage estimates \"{}\"", settings.parameters[j].in_case.name));
 }
 
+Intervals read_intervals(const ConfigTable& fit, const ConfigTable& root) {
+  const std::string intervals = fit.choice("intervals", "linear");
+  if (intervals == "profile") return Intervals::profile;
+  if (intervals == "posterior") return Intervals::posterior;
+  if (intervals != "discrepancy") return Intervals::linear;
+  for (const char* other : {"events", "fields"})
+    if (root.has("experiment") && !root.table("experiment").tables(other).empty())
+      throw fit.at("intervals")
+          .error(fmt::format("a discrepancy of the model is one of force over displacement: it does not go with "
+                             "[[experiment.{}]]",
+                             other));
+  return Intervals::discrepancy;
+}
+
 }  // namespace
 
 void require_start_within_bounds(const ConfigTable& fit, const std::vector<CurveFitParameter>& parameters) {
@@ -139,10 +153,7 @@ std::optional<CurveFitSettings> read_curve_fit(const CaseFile& file) {
   finer_case(fit, file);  // whether they make sense
   coarse_case(fit, file);
   CurveFitSettings settings{.parameters = {}, .stages = {}, .solver = read_settings(fit), .where = fit};
-  const std::string intervals = fit.choice("intervals", "linear");
-  settings.intervals = intervals == "profile"     ? Intervals::profile
-                       : intervals == "posterior" ? Intervals::posterior
-                                                  : Intervals::linear;
+  settings.intervals = read_intervals(fit, root);
   settings.parameters = read_fit_parameters(fit, file);
   const CurveFitStage whole = whole_stage(fit, settings.parameters);
   for (const ConfigTable& table : fit.tables("stages"))

@@ -24,8 +24,8 @@ struct CurveFitStage {
   int screened = 0;                     ///< FitSettings::screened
 };
 
-/// What a sound fit has beside the linear intervals.
-enum class Intervals { linear, profile, posterior };
+/// What a sound fit has beside the linear intervals; with a discrepancy of the model a questionable one as well.
+enum class Intervals { linear, profile, posterior, discrepancy };
 
 struct CurveFitSettings {
   std::vector<CurveFitParameter> parameters;

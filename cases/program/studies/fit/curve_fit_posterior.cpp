@@ -15,6 +15,7 @@ namespace pfdm {
 namespace {
 
 constexpr const char* samples_file = "fit_posterior.csv";
+constexpr const char* discrepancy_file = "fit_discrepancy.csv";
 constexpr double noticeable_error = 0.3;  // of the logarithm of the posterior
 constexpr double least_effective = 400.0;
 constexpr double lowest = 0.025, highest = 0.975;
@@ -62,12 +63,44 @@ void warn_of(const Posterior& sampled, std::vector<std::string>& warnings) {
                     sampled.effective));
 }
 
+/// Displacements as they were recorded. A discrepancy is hardly larger than twice what the best fit leaves.
+ResidualPlaces places_of(const MeasuredPoints& points, double rms) {
+  ResidualPlaces places;
+  double scale = 0.0;
+  for (const MeasuredPoints::Point& point : points.points) {
+    places.at.push_back(point.x);
+    places.scale.push_back(points.scale(point));
+    scale += places.scale.back() / static_cast<double>(points.points.size());
+  }
+  places.largest = 2.0 * rms * scale;
+  return places;
+}
+
+CsvTable table_of(const ModelDiscrepancy& discrepancy, const std::string& name) {
+  CsvTable table;
+  table.comments.push_back(fmt::format(
+      "discrepancy of the model in the posterior of the fit of {}: force that it lacks (measured less computed), "
+      "median and 95 %",
+      name));
+  table.add("displacement_m", discrepancy.at);
+  table.add("median_force_N", discrepancy.median);
+  table.add("lower_force_N", discrepancy.lower);
+  table.add("upper_force_N", discrepancy.upper);
+  return table;
+}
+
+PosteriorInterval as_found(const ModelDiscrepancy::Interval& i) {
+  return {.median = i.median, .lower = i.lower, .upper = i.upper};
+}
+
 }  // namespace
 
 void CurveFit::add_posterior(const DoneStage& done, FitFindings& found) {
-  const PosteriorSettings how{.widening = mean_widening(found), .running = [this](int points) {
-                                session_.log.say(fmt::format("  posterior: {} points about the estimates", points));
-                              }};
+  const bool may_lack = job_.settings.intervals == Intervals::discrepancy;
+  PosteriorSettings how{.widening = mean_widening(found), .running = [this](int points) {
+                          session_.log.say(fmt::format("  posterior: {} points about the estimates", points));
+                        }};
+  if (may_lack) how.places = places_of(done.points, done.result.rms);
   const Posterior sampled = posterior(done.problem, done.result, how);
   for (std::size_t k = 0; k < found.parameters.size(); ++k) {
     PosteriorInterval interval{.median = sampled.quantile(k, 0.5),
@@ -82,6 +115,12 @@ void CurveFit::add_posterior(const DoneStage& done, FitFindings& found) {
                                       .effective = sampled.effective,
                                       .evaluations = sampled.evaluations,
                                       .law_files = add_law_bands(done.stage, sampled.samples, found.warnings)};
+  if (const auto& discrepancy = sampled.discrepancy) {
+    tables_[discrepancy_file] = table_of(*discrepancy, job_.name);
+    found.posterior->discrepancy = {.file = discrepancy_file,
+                                    .amplitude = as_found(discrepancy->amplitude),
+                                    .length = as_found(discrepancy->length)};
+  }
   warn_of(sampled, found.warnings);
 }
 

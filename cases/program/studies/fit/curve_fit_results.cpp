@@ -99,6 +99,15 @@ std::string posterior_text(const CaseParameter& p, const FittedParameter& found)
                      p.in_file_units(found.posterior->lower), p.in_file_units(found.posterior->upper));
 }
 
+void say_discrepancy(const DiscrepancyFindings& found, Log& log) {
+  const auto shown = [](const PosteriorInterval& i, const char* unit) {
+    return fmt::format("{} ({} to {})", quantity_text(i.median, unit, 3), quantity_text(i.lower, unit, 3),
+                       quantity_text(i.upper, unit, 3));
+  };
+  log.say(fmt::format("  discrepancy of the model in the posterior: {} over lengths of {}, in {}",
+                      shown(found.amplitude, "N"), shown(found.length, "m"), found.file));
+}
+
 void say_estimates(const FitFindings& whole, const std::vector<CaseParameter>& parameters, Log& log) {
   log.say(fmt::format("rms residual of {} points {:.4g}, with the first guess {:.4g}", whole.n_residuals, whole.rms,
                       *whole.first_rms));
@@ -109,6 +118,7 @@ void say_estimates(const FitFindings& whole, const std::vector<CaseParameter>& p
                         profile_text(p, found), posterior_text(p, found), moved_text(found),
                         p.in_file_units(found.first_guess)));
   }
+  if (whole.posterior && whole.posterior->discrepancy) say_discrepancy(*whole.posterior->discrepancy, log);
   for (std::size_t j = 0; j < whole.parameters.size(); ++j)
     for (std::size_t i = 0; i < j; ++i)
       log.say(fmt::format("  correlation of {} and {}: {:.3f}", whole.parameters[i].name, whole.parameters[j].name,
@@ -149,12 +159,14 @@ void write_tables(const std::map<std::string, CsvTable>& tables, const FitFindin
   if (whole.posterior) {
     kept.insert(whole.posterior->file);
     kept.insert(whole.posterior->law_files.begin(), whole.posterior->law_files.end());
+    if (const auto& discrepancy = whole.posterior->discrepancy) kept.insert(discrepancy->file);
   }
   for (const auto& [file, table] : tables)
     if (kept.contains(file)) write_csv(results / file, table);
   for (const fs::directory_entry& entry : fs::directory_iterator(results)) {
     const std::string file = entry.path().filename().string();
-    const bool is_table = file == "fit_posterior.csv" || (file.starts_with("fit_law_") && file.ends_with(".csv")) ||
+    const bool is_table = file == "fit_posterior.csv" || file == "fit_discrepancy.csv" ||
+                          (file.starts_with("fit_law_") && file.ends_with(".csv")) ||
                           (file.starts_with(field_tables) && file.ends_with(".csv"));
     if (is_table && !kept.contains(file)) fs::remove(entry.path());
   }
