@@ -194,7 +194,7 @@ TEST(FitIntervals, OfAnotherKindAreRefused) {
   directory.write("data.csv", "displacement_m,force_N,deviation_N\n0,0,1\n1e-6,1,1\n");
   const Outcome outcome = run({"fit", directory.path().string()});
   EXPECT_EQ(outcome.status, 2);
-  EXPECT_NE(outcome.err.find("\"bayes\" is not a kind of intervals (allowed: linear, profile, posterior)"),
+  EXPECT_NE(outcome.err.find("\"bayes\" is not a kind of intervals (allowed: linear, profile, posterior, discrepancy)"),
             std::string::npos)
       << outcome.err;
 }
