@@ -269,6 +269,13 @@ between = ["0 um", "4 um"]
         self.assertEqual(fit.posterior.attrs["units"], {name: "Pa"})
         self.assertLess(abs(samples.mean() - modulus.estimate), 0.2 * modulus.standard_error)
         self.assertLess(abs(samples.std() / modulus.standard_error - 1.0), 0.15)
+        self.assertIsNone(fit.discrepancy)
+        with_discrepancy = pfdm.Case(place, {"mesh.x[0].cells": 21, "fracture.length": "12 mm",
+                                             "fit.intervals": "discrepancy"}).fit(self.folder / "wide")
+        lacking = with_discrepancy.discrepancy
+        self.assertTrue((lacking["lower_force_N"] < lacking["upper_force_N"]).all())
+        self.assertAlmostEqual(lacking["displacement_m"].iloc[-1], 4e-6)
+        self.assertGreater(with_discrepancy.posterior[name].std(), samples.std())
 
 
 if __name__ == "__main__":

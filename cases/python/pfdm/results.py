@@ -131,7 +131,7 @@ class Fit:
 
     @cached_property
     def posterior(self) -> pandas.DataFrame | None:
-        """Samples of the posterior (`intervals = "posterior"` in [fit]): a row each, a column for each parameter that
+        """Samples of the posterior (`intervals = "posterior"` or `"discrepancy"` in [fit]): a row each, a column for each parameter that
         the last stage estimates, in the units of `estimates`; None of a fit without it."""
         if "posterior" not in self.content:
             return None
@@ -139,6 +139,13 @@ class Fit:
         units = self.estimates.attrs["units"]
         table.attrs["units"] = {name: units[name] for name in table.columns}
         return table
+
+    @cached_property
+    def discrepancy(self) -> pandas.DataFrame | None:
+        """What the model lacks over displacement (`intervals = "discrepancy"` in [fit]): columns displacement_m,
+        median_force_N, lower_force_N, upper_force_N (measured less computed, 95 %); None of a fit without it."""
+        found = self.content.get("posterior", {}).get("discrepancy")
+        return None if found is None else read_table(self.folder / found["file"])
 
     @cached_property
     def laws(self) -> list[pandas.DataFrame]:
