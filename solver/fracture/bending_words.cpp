@@ -15,7 +15,7 @@ namespace pfdm {
 namespace {
 
 constexpr double bearable = 0.03;
-constexpr int layers_for_it = 10;  // (3 - 2/n)/n^2 is then 2.8 %
+constexpr double layers_for_it = 10.0;  // even ones of one material: (3 - 2/n)/n^2 is then 2.8 %
 
 // Why gradients are of one ring wherever layers bend; empty where lines of cells or cubics may serve.
 std::string reason(const FractureModel& model) {
@@ -31,25 +31,44 @@ std::string reason(const FractureModel& model) {
   return "";
 }
 
+std::string length_words(double metres, int digits) { return quantity_text(metres, "m", digits); }
+
+// On materials of one cell across, or else of two, of which a part of what they have about their own middles is
+// missing.
+std::string words_on_thin(const BendingError& worst) {
+  const LayerStack& stack = worst.layers.stack;
+  const bool is_lone = stack.lone > 0.0, by_cubics = worst.by == BendBy::cubics;
+  return fmt::format(
+      "too low (materials of {} across have {:.0f} % of it about their own middles, of which {} is missing, within a "
+      "third; one is {} thick). For {:.0f} %: {} cells across each material ([mesh])",
+      is_lone ? "one cell" : "two cells", 100.0 * (is_lone ? stack.lone : stack.beside + stack.between),
+      by_cubics ? "0.9" : (is_lone ? "0.65" : "0.06, between other materials 0.14,"),
+      length_words(stack.thinnest_thickness, 3), 100.0 * bearable, by_cubics ? "two" : "three");
+}
+
 // Words on the worst error, its reason and its remedy.
 std::string words_on(const BendingError& worst, const std::string& why) {
   const BendingLayers& at = worst.layers;
   const double nu = worst.poisson_ratio;
-  const auto length = [](double metres, int digits) { return quantity_text(metres, "m", digits); };
-  if (!worst.has_lines)
-    return fmt::format("too {} ({}; measured within a third). For {:.0f} %: {} layers of cells up to {} long ([mesh])",
-                       worst.error > 0.0 ? "high" : "low", why, 100.0 * bearable, layers_for_it,
-                       length(at.thickness * std::sqrt(bearable / (1.5 * (1.0 - nu))), 2));
-  if (worst.error > 0.0)
+  if (worst.by == BendBy::one_ring)
+    return fmt::format("too {} ({}; measured within {}). For {:.0f} %: {:.0f} layers of cells up to {} long ([mesh])",
+                       worst.error > 0.0 ? "high" : "low", why,
+                       at.stack.n_materials > 1 ? "a factor of two" : "a third", 100.0 * bearable,
+                       std::ceil(layers_for_it * at.n / at.stack.even_layers() - 0.01),
+                       length_words(at.stack.even_thickness * std::sqrt(bearable / (1.5 * (1.0 - nu))), 2));
+  if (worst.error < 0.0) return words_on_thin(worst);
+  if (worst.by == BendBy::cubics)
     return fmt::format(
-        "too high or, with an odd number of cells along, too low (cells longer than the body is thick: 0.05 "
-        "(length/thickness - 1)^1.3 sqrt((1 - nu)/(1 - 2 nu)), within a factor of two). For {:.0f} %: cells up to {} "
-        "long ([mesh])",
-        100.0 * bearable, length(1.3 * at.thickness, 2));
+        "too high or too low (cells longer than the body is thick; the error grows with the cube of their length, "
+        "within a factor of two). For {:.0f} %: cells up to {} long ([mesh])",
+        100.0 * bearable, length_words(at.length * std::cbrt(bearable / worst.error), 2));
+  if (at.excess_of_uneven() >= at.excess_of_lines(nu))
+    return "too high (layers of uneven thickness, within a factor of two). For less: even layers ([mesh])";
   return fmt::format(
-      "too low (0.7 (t/thickness)^2, within a factor of two; one cell of t = {} across a material). For {:.0f} %: two "
-      "cells across it ([mesh])",
-      length(at.lone, 3), 100.0 * bearable);
+      "too high or, with an odd number of cells along, too low (cells longer than the body is thick: 0.05 "
+      "(length/thickness - 1)^1.3 sqrt((1 - nu)/(1 - 2 nu)), within a factor of two). For {:.0f} %: cells up to {} "
+      "long ([mesh])",
+      100.0 * bearable, length_words(1.3 * at.thickness, 2));
 }
 
 std::string words_on_layers(const Mesh& mesh, Index cell, const BendingLayers& at, std::string_view cells) {
@@ -90,18 +109,32 @@ std::optional<Warned> warn_of_others(const Mesh& mesh, const Unknowns& unknowns,
                                        is_rough ? "factor of two" : "third")};
 }
 
-// Prisms that fit cubics, where a fifth of the surface exceeds it.
-std::optional<std::string> warn_of_long_prisms(const Mesh& mesh, std::vector<SlenderLayers> all) {
-  constexpr double longest = 1.2;
+// Prisms that fit cubics, where a fifth of the surface exceeds it: those longer than the body is thick, and materials
+// of one box of prisms across.
+std::optional<Warned> warn_of_plane_prisms(const Mesh& mesh, std::vector<SlenderLayers> all) {
+  constexpr double longest = 1.2, longest_of_laminates = 0.75;
   if (all.empty()) return std::nullopt;
   const auto at = all.begin() + count_of(all) * 4 / 5;
   std::ranges::nth_element(all, at, {}, [](const SlenderLayers& in) { return in.layers.length / in.layers.thickness; });
-  if (at->layers.length <= longest * at->layers.thickness) return std::nullopt;
-  return words_on_layers(mesh, at->cell, at->layers, "triangles") +
-         fmt::format(
-             "not known (cells longer than the body is thick: 1.5 times 23 % too low to 3 % too high, twice 39 % "
-             "too low to 48 % too high, by nu and the diagonals). For 5 %: cells up to {} long ([mesh])",
-             quantity_text(at->layers.thickness, "m", 2));
+  const double least = at->layers.stack.n_materials > 1 ? longest_of_laminates : longest;
+  if (at->layers.length > least * at->layers.thickness)
+    return Warned{1.0, words_on_layers(mesh, at->cell, at->layers, "triangles") +
+                           fmt::format("not known ({}). For 5 %: cells up to {} long ([mesh])",
+                                       at->layers.stack.n_materials > 1
+                                           ? "long cells of a laminate: as long as the body is thick 33 % too low to 4 "
+                                             "% too high, or the solution is none"
+                                           : "cells longer than the body is thick: 1.5 times 23 % too low to 3 % too "
+                                             "high, twice 39 % too low to 48 % too high, by nu and the diagonals",
+                                       length_words((least < 1.0 ? 0.5 : 1.0) * at->layers.thickness, 2))};
+  std::ranges::nth_element(all, at, {}, [](const SlenderLayers& in) { return in.lack_of_cubics(); });
+  const double lack = at->lack_of_cubics();
+  if (lack <= bearable_of_others) return std::nullopt;
+  return Warned{
+      -lack, words_on_layers(mesh, at->cell, at->layers, "triangles") +
+                 fmt::format("about {:.0f} % too low (materials of one layer have {:.0f} % of it about their own "
+                             "middles, of which 0.5 length/thickness is missing, within a factor of three). For {:.0f} "
+                             "%: two layers across each material ([mesh])",
+                             100.0 * lack, 100.0 * at->layers.stack.lone, 100.0 * bearable)};
 }
 
 std::string warn_of_polygons(const Mesh& mesh, const SlenderLayers& at) {
@@ -111,13 +144,20 @@ std::string warn_of_polygons(const Mesh& mesh, const SlenderLayers& at) {
          "should ([mesh])";
 }
 
-std::optional<Warned> warn_of_hexahedra(const Mesh& mesh, const Unknowns& unknowns, const std::string& why) {
-  const auto worst =
-      largest_bending_error(mesh, unknowns, why.empty() ? std::optional(LinesIn::space_and_plane) : std::nullopt);
+std::optional<Warned> warn_of_hexahedra(const Mesh& mesh, const Unknowns& unknowns, BendBy by, const std::string& why) {
+  const auto worst = largest_bending_error(mesh, unknowns, by);
   if (!worst || std::abs(worst->error) <= bearable) return std::nullopt;
-  return Warned{worst->error, words_on_layers(mesh, worst->cell, worst->layers, "hexahedra") +
+  const bool is_thin = worst->by != BendBy::one_ring && worst->error < 0.0;
+  return Warned{worst->error, words_on_layers(mesh, is_thin ? worst->layers.stack.thinnest : worst->cell, worst->layers,
+                                              "hexahedra") +
                                   fmt::format("about {:.0f} % {}", 100.0 * std::abs(worst->error),
                                               words_on(*worst, why.empty() ? "one cell across" : why))};
+}
+
+std::optional<std::string> larger(const std::optional<Warned>& one, const std::optional<Warned>& other) {
+  if (!one && !other) return std::nullopt;
+  if (!one || (other && std::abs(other->error) > std::abs(one->error))) return other->words;
+  return one->words;
 }
 
 }  // namespace
@@ -133,14 +173,11 @@ std::optional<std::string> bending_warning(const Mesh& mesh, const FractureModel
       if (at.of == SlenderCells::prisms_within) of_prisms.push_back(at);
     std::erase_if(slender, [](const SlenderLayers& at) { return at.of != SlenderCells::polyhedra; });
     if (!slender.empty()) return warn_of_polygons(mesh, slender.front());
-    return warn_of_long_prisms(mesh, std::move(of_prisms));
+    return larger(warn_of_hexahedra(mesh, unknowns, BendBy::cubics, why),
+                  warn_of_plane_prisms(mesh, std::move(of_prisms)));
   }
-  const std::optional<Warned> of_hexahedra = warn_of_hexahedra(mesh, unknowns, why),
-                              of_others = warn_of_others(mesh, unknowns, std::move(slender));
-  if (!of_hexahedra && !of_others) return std::nullopt;
-  if (!of_hexahedra || (of_others && std::abs(of_others->error) > std::abs(of_hexahedra->error)))
-    return of_others->words;
-  return of_hexahedra->words;
+  return larger(warn_of_hexahedra(mesh, unknowns, why.empty() ? BendBy::lines : BendBy::one_ring, why),
+                warn_of_others(mesh, unknowns, std::move(slender)));
 }
 
 }  // namespace pfdm

@@ -1,11 +1,14 @@
 #include "solver/fracture/stiffness_words.h"
 
+#include "physics/quantity_text.h"
 #include "solver/fracture/cells/relaxing_gaps.h"
 #include "solver/fracture/model/relaxing_volume.h"
+#include "solver/momentum/bending/confined_layers.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 
 namespace pfdm {
@@ -65,11 +68,57 @@ std::optional<std::string> of_relaxation(const Mesh& mesh, const FractureModel& 
       mesh.region_names[region], most);
 }
 
+// What the layer takes more of for the error to be bearable; with cells at its edges as much shorter.
+double refinement(const ConfinedLayer& layer, const IsotropicElasticity& of, double bearable) {
+  double times = 1.0;
+  while (-layer.error(of, times) > bearable && times < 100.0) times += 0.5;
+  return times;
+}
+
+// The coarse confined layer of the region in which more than half of the held surface errs by more than is bearable:
+// one with the median error.
+std::optional<std::string> of_confined_layers(const Mesh& mesh, const FractureModel& model) {
+  constexpr double bearable = 0.03, least_ratio = 0.3;
+  if (model.is_plane_stress() || model.is_finite_strain()) return std::nullopt;
+  const Unknowns unknowns = place_unknowns(mesh, elastic_body(model));
+  struct Found {
+    ConfinedLayer layer;
+    double error = 0.0;  // too soft
+  };
+  std::vector<std::vector<Found>> regions(mesh.region_names.size());
+  for (const ConfinedLayer& layer : confined_layers(mesh, unknowns)) {
+    const IsotropicElasticity& of = unknowns.sound[unknowns.zone[layer.cell]];
+    if (of.poisson_ratio() >= least_ratio) regions[mesh.region[layer.cell]].push_back({layer, -layer.error(of)});
+  }
+  std::optional<Found> worst;
+  for (std::vector<Found>& in : regions) {
+    if (in.empty()) continue;
+    std::ranges::sort(in, {}, &Found::error);
+    double all = 0.0, below = 0.0;
+    for (const Found& at : in) all += at.layer.area;
+    auto median = in.begin();
+    while (below += median->layer.area, below < 0.5 * all) ++median;
+    if (median->error > bearable && (!worst || median->error > worst->error)) worst = *median;
+  }
+  if (!worst) return std::nullopt;
+  const ConfinedLayer& at = worst->layer;
+  const IsotropicElasticity& of = unknowns.sound[unknowns.zone[at.cell]];
+  const double times = refinement(at, of, bearable);
+  const auto length = [](double metres) { return quantity_text(metres, "m", 3); };
+  return fmt::format(
+      "region \"{}\": {:.3g} layer{} of cells {} long at the edges across {}, {} wide and held on both faces, nu = "
+      "{:.3g}: pulled or pressed across, it is about {:.0f} % too soft (its constraint ends within few cells of the "
+      "edges; within a third). For {:.0f} %: {:.0f} layers of cells {} long at the edges ([mesh])",
+      mesh.region_names[mesh.region[at.cell]], at.layers, at.layers < 1.5 ? "" : "s", length(at.spans[0].cells),
+      length(at.thickness), length(at.spans[0].width), of.poisson_ratio(), 100.0 * worst->error, 100.0 * bearable,
+      std::ceil(times * at.layers - 0.01), length(at.spans[0].cells / times));
+}
+
 }  // namespace
 
 std::vector<std::string> stiffness_warnings(const Mesh& mesh, const FractureModel& model) {
   std::vector<std::string> warnings;
-  for (const auto& warning : {of_volume(mesh, model), of_relaxation(mesh, model)})
+  for (const auto& warning : {of_volume(mesh, model), of_confined_layers(mesh, model), of_relaxation(mesh, model)})
     if (warning) warnings.push_back(*warning);
   return warnings;
 }

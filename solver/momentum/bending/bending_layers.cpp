@@ -22,6 +22,7 @@ bool touch(const Mesh& mesh, Index f, Index g) {
 struct LayerLine {
   double n = 0.0, length = 0.0;
   int n_mirrors = 0, n_held = 0;
+  std::size_t stack = 0;  // of LayerLines, if it has layers
 
   double times() const { return n_mirrors == 1 ? 2.0 : 1.0; }
   // Cells between the free surfaces on both sides.
@@ -49,6 +50,7 @@ class LayerLines {
   }
   const std::array<Index, 2>& faces(Index cell, int axis) const { return pairs_[cell][axis].face; }
   const LayerLine& line(Index cell, int axis) const { return lines_[cell][axis]; }
+  const LayerStack& stack(const LayerLine& line) const { return stacks_[line.stack]; }
   /// Length of the cells of one zone in the line, twice that where one of its ends is a plane of symmetry [m].
   double zone_length(Index cell, int axis) const {
     double sum = length(cell, axis);
@@ -87,16 +89,34 @@ class LayerLines {
   void walk(Index cell, int axis) {
     std::vector<Step> steps{{cell, axis}};
     LayerLine line;
+    bool mirror_is_first = false;
     for (const std::size_t side : {std::size_t{0}, std::size_t{1}}) {
+      if (side == 1) std::ranges::reverse(steps);  // from one end of the line to the other
       const BodyEnd end = follow(cell, pairs_[cell][axis].face[side], steps);
       line.n_mirrors += end == BodyEnd::mirror ? 1 : 0;
       line.n_held += end == BodyEnd::held ? 1 : 0;
+      if (side == 0) mirror_is_first = end == BodyEnd::mirror;
     }
     for (const auto& [c, a] : steps) {
       line.n += 1.0;
       line.length += length(c, a);
     }
+    if (line.has_layers()) {
+      line.stack = stacks_.size();
+      if (mirror_is_first) std::ranges::reverse(steps);
+      stacks_.push_back(layer_stack(layers_of(steps), line.n_mirrors == 1));
+    }
     for (const auto& [c, a] : steps) lines_[c][a] = line;
+  }
+
+  std::vector<StackLayer> layers_of(const std::vector<Step>& steps) const {
+    std::vector<StackLayer> layers;
+    for (const auto& [c, a] : steps)
+      layers.push_back({.cell = c,
+                        .zone = unknowns_.zone[c],
+                        .thickness = length(c, a),
+                        .modulus = plate_modulus(unknowns_.sound[unknowns_.zone[c]])});
+    return layers;
   }
 
   // Adds the cells beyond a face.
@@ -125,11 +145,8 @@ class LayerLines {
   FaceField<BodyEnd> ends_;
   std::vector<std::array<OppositeFaces, 3>> pairs_;
   std::vector<std::array<LayerLine, 3>> lines_;
+  std::vector<LayerStack> stacks_;
 };
-
-bool is_lone(const Mesh& mesh, const Unknowns& unknowns, Index cell, const std::array<Index, 2>& faces) {
-  return cells_through(mesh, unknowns, cell, faces) == 1;
-}
 
 // Cells in the line of a cell up to faces at which it ends.
 template <class Ends>
@@ -157,14 +174,26 @@ void over_layers(const Mesh& mesh, const Unknowns& unknowns, const See& see) {
                         .along = lines.faces(c, along),
                         .thickness = thickness,
                         .zone_thickness = lines.zone_length(c, across)},
-            BendingLayers{.n = n,
-                          .thickness = thickness,
-                          .length = lines.length(c, along),
-                          .lone = layers.n > 1.0 && is_lone(mesh, unknowns, c, lines.faces(c, across))
-                                      ? lines.length(c, across)
-                                      : 0.0},
+            BendingLayers{
+                .n = n, .thickness = thickness, .length = lines.length(c, along), .stack = lines.stack(layers)},
             unknowns.sound[unknowns.zone[c]].poisson_ratio());
       }
+}
+
+// Whether half of the volume in which cubics are fitted is of cells so long that they err.
+bool are_mostly_long(const Mesh& mesh, const Unknowns& unknowns) {
+  constexpr double bearable = 0.03;
+  double all = 0.0, too_long = 0.0;
+  over_layers(mesh, unknowns, [&](const BendingCell& in, const BendingLayers& at, double) {
+    all += mesh.cell_volume[in.cell];
+    if (at.excess_of_cubics() > bearable) too_long += mesh.cell_volume[in.cell];
+  });
+  return too_long > 0.5 * all;
+}
+
+double error_of(const BendingLayers& at, BendBy by, bool are_long, double nu) {
+  if (by == BendBy::lines) return at.error_of_lines(nu);
+  return by == BendBy::cubics ? at.error_of_cubics(are_long) : at.error_of_one_ring(nu);
 }
 
 }  // namespace
@@ -201,22 +230,6 @@ std::vector<BendingCell> cells_of_layers(const Mesh& mesh, const Unknowns& unkno
   return cells;
 }
 
-double poisson_share(double nu) {
-  const double at_most = std::clamp(nu, 0.0, 0.45);
-  return at_most * at_most / ((1.0 - at_most) * (1.0 - 2.0 * at_most));
-}
-
-double BendingLayers::error_of_one_ring(double nu) const {
-  const double x = excess(nu), poisson = n > 1.5 ? 0.6 * poisson_share(nu) * (2.0 - 3.0 / n) / (n * n) : 0.0;
-  return x / (1.0 + 0.13 * x * std::sqrt(x)) - lack() + poisson;
-}
-
-double BendingLayers::excess_of_lines(double nu) const {
-  const double at_most = std::min(nu, 0.45);
-  const double longer = std::max(0.0, length / thickness - 1.0);
-  return 0.05 * std::pow(longer, 1.3) * std::sqrt((1.0 - at_most) / (1.0 - 2.0 * at_most));
-}
-
 Index cells_through(const Mesh& mesh, const Unknowns& unknowns, Index cell, const std::array<Index, 2>& faces) {
   return count_through(mesh, cell, faces,
                        [&](Index at, Index face) { return unknowns.node_beside(mesh, at, face) >= 0; });
@@ -244,14 +257,16 @@ std::vector<char> bending_cells(const Mesh& mesh, const Unknowns& unknowns) {
   return bends;
 }
 
-std::optional<BendingError> largest_bending_error(const Mesh& mesh, const Unknowns& unknowns,
-                                                  std::optional<LinesIn> lines) {
+std::optional<BendingError> largest_bending_error(const Mesh& mesh, const Unknowns& unknowns, BendBy by) {
   std::optional<BendingError> largest;
+  const bool are_long = by == BendBy::cubics && are_mostly_long(mesh, unknowns);
   over_layers(mesh, unknowns, [&](const BendingCell& in, const BendingLayers& at, double nu) {
-    const bool by_lines = lines && has_lines(mesh, unknowns, in, *lines);
-    const double error = by_lines ? at.excess_of_lines(nu) - at.lack_of_lines() : at.error_of_one_ring(nu);
+    const bool is_several = by != BendBy::one_ring && has_lines(mesh, unknowns, in, LinesIn::space_and_plane);
+    if (by == BendBy::cubics && !is_several) return;
+    const BendBy by_now = is_several ? by : BendBy::one_ring;
+    const double error = error_of(at, by_now, are_long, nu);
     if (!largest || std::abs(error) > std::abs(largest->error))
-      largest = {.cell = in.cell, .layers = at, .poisson_ratio = nu, .error = error, .has_lines = by_lines};
+      largest = {.cell = in.cell, .layers = at, .poisson_ratio = nu, .error = error, .by = by_now};
   });
   return largest;
 }

@@ -2,6 +2,7 @@
 // Layers of few cells that bend: lines of cells through opposite faces, and the bending error of gradients of one ring.
 
 #include "mesh/mesh.h"
+#include "solver/momentum/bending/layer_stack.h"
 #include "solver/momentum/body/unknowns.h"
 
 #include <algorithm>
@@ -19,7 +20,7 @@ struct BendingLayers {
   double n = 0.0;          ///< layers, twice as many where the last one lies on a plane of symmetry
   double thickness = 0.0;  ///< of all of them [m]
   double length = 0.0;     ///< of the cell along the layers [m]
-  double lone = 0.0;       ///< thickness of the cell if it is the only one of its material across, else 0 [m]
+  LayerStack stack;        ///< of all of them
 
   /// Bending stiffness with gradients of one ring over the exact one: 1.5 (1 - nu) (length/thickness)^2 too much, and
   /// (3 - 2/n)/n^2 too little.
@@ -27,20 +28,37 @@ struct BendingLayers {
   double lack() const { return n > 1.0 ? (3.0 - 2.0 / n) / (n * n) : 1.0; }
   /// Whether either exceeds half a per cent.
   bool is_wrong(double nu) const { return std::max(excess(nu), lack()) > 0.005; }
-  /// Their sum, less what Poisson's effect across the layers stiffens and what cells longer than the body is thick
-  /// leave of the excess: x/(1 + 0.13 x^1.5) - ((3 - 2/n) - 0.6 f (2 - 3/n))/n^2, x being the excess and f = nu^2/((1 -
-  /// nu)(1 - 2 nu)) at nu up to 0.45. Measured (test `bending_in_space`).
+  // Bending stiffness over the exact one, less 1, of stacks of one or several materials (LayerStack). Measured with
+  // cantilevers (bending.md, tests `bending_in_space` and `laminates`).
+  //
+  /// The excess of the stack's even thickness, x = 1.5 (1 - nu) (length/even_thickness)^2.
+  double excess_of_stack(double nu) const;
+  /// Gradients of one ring: x/(1 + 0.13 x^1.5) - (3 - 2/n - 0.6 f (2 - 3/n)) (layers - lone) - lone, n = layers^(-1/2)
+  /// and f = nu^2/((1 - nu)(1 - 2 nu)) at nu up to 0.45, which is how Poisson's effect across stiffens layers.
   double error_of_one_ring(double nu) const;
-  /// Bending stiffness over the exact one, less 1, with gradients along lines of cells. Cells longer than the
-  /// thickness: 0.05 (length/thickness - 1)^1.3 sqrt((1 - nu)/(1 - 2 nu)), nu at most 0.45, too much in cantilevers of
-  /// an even number of cells, too little with an odd one. One cell across: 0.7 (lone/thickness)^2 too little. Measured
-  /// (test `bending`).
+  /// Gradients along lines of cells that are longer than the thickness: 0.05 (length/thickness - 1)^1.3 sqrt((1 -
+  /// nu)/(1 - 2 nu)), nu at most 0.45, too much in cantilevers of an even number of cells, too little with an odd one.
   double excess_of_lines(double nu) const;
-  double lack_of_lines() const { return 0.7 * lone * lone / (thickness * thickness); }
+  /// Materials of one or two cells across, too little: 0.65 lone + 0.06 beside + 0.14 between.
+  double lack_of_lines() const { return 0.65 * stack.lone + 0.06 * stack.beside + 0.14 * stack.between; }
+  /// Three or more uneven layers of a single material, too much: d/(1 + 6 d), d = layers - 1/n^2.
+  double excess_of_uneven() const;
+  /// The larger of the two, too much, where they exceed what is lacking, else that; a laminate's are added.
+  double error_of_lines(double nu) const;
+  /// Cubic fits in plane meshes, either way: c (length/thickness)^3 thickness/even_thickness, c = 0.005 + 0.014
+  /// of_pairs of laminates, and 0.019 of two layers of a single material; zero of more.
+  double excess_of_cubics() const;
+  /// Materials of one cell across in plane meshes, too little: 0.9 lone (1 + 0.12 (length/thickness)^2).
+  double lack_of_cubics() const;
+  /// The larger of the two; that of long cells only where they are the rule.
+  double error_of_cubics(bool are_long) const;
 };
 
 /// nu^2/((1 - nu)(1 - 2 nu)), at nu up to 0.45: how much Poisson's effect stiffens layers that do not see it.
 double poisson_share(double nu);
+
+/// E/(1 - nu^2) [Pa].
+double plate_modulus(const IsotropicElasticity& of);
 
 /// What a body ends at: a free face, a plane of symmetry, or a face that is held.
 enum class BodyEnd : char { free, mirror, held };
@@ -94,18 +112,23 @@ std::vector<BendingCell> cells_with_lines(const Mesh& mesh, const Unknowns& unkn
 /// error of more than half a per cent. None in boxes that follow a mean strain.
 std::vector<char> bending_cells(const Mesh& mesh, const Unknowns& unknowns);
 
+/// By which gradients layers bend.
+enum class BendBy : char { one_ring, lines, cubics };
+
 /// The error of bending at a cell.
 struct BendingError {
   Index cell = 0;
   BendingLayers layers;
   double poisson_ratio = 0.0;
-  double error = 0.0;      ///< bending stiffness over the exact one, less 1
-  bool has_lines = false;  ///< by gradients along lines of cells, else of one ring
+  double error = 0.0;  ///< bending stiffness over the exact one, less 1; of long cells with cubic fits either way
+  BendBy by = BendBy::one_ring;
 };
 
-/// Largest bending error of hexahedra in bodies at least three times as long as thick; empty without such bodies. Cells
-/// that have lines in `lines`, if it is given, count with the error of lines. None in boxes that follow a mean strain.
+/// Largest bending error of hexahedra in bodies at least three times as long as thick; empty without such bodies. `by`:
+/// what they have that are two or more across; bodies of a single cell across have one ring, of which cubics say
+/// nothing. Cells of cubic fits are long where those of half of the volume or more err by 3 %. None in boxes that
+/// follow a mean strain.
 std::optional<BendingError> largest_bending_error(const Mesh& mesh, const Unknowns& unknowns,
-                                                  std::optional<LinesIn> lines = std::nullopt);
+                                                  BendBy by = BendBy::one_ring);
 
 }  // namespace pfdm

@@ -23,27 +23,6 @@ Vector axis_of(const Mesh& mesh, Index cell) {
   return Vector::Zero();
 }
 
-SlenderCells kind_of(const Mesh& mesh, Index cell, const Vector& across, const Vector& along) {
-  if (mesh.shape[cell] == CellShape::polyhedron) return SlenderCells::polyhedra;
-  if (mesh.shape[cell] != CellShape::wedge) return SlenderCells::tetrahedra;
-  const Vector axis = axis_of(mesh, cell);
-  const double by_across = std::abs(axis.dot(across)), by_along = std::abs(axis.dot(along));
-  if (std::max(by_across, by_along) < 0.5) return SlenderCells::prisms_within;
-  return by_across > by_along ? SlenderCells::prisms_across : SlenderCells::prisms_along;
-}
-
-// Sizes over mean chords, across and along: those of the box that a pair of prisms or six tetrahedra fill.
-std::pair<double, double> boxes_of(SlenderCells cells) {
-  switch (cells) {
-    case SlenderCells::prisms_across: return {1.0, 2.0};
-    case SlenderCells::prisms_within: return {2.0, 2.0};
-    case SlenderCells::prisms_along: return {2.0, 1.0};
-    case SlenderCells::tetrahedra: return {3.0, 3.0};
-    case SlenderCells::polyhedra: break;
-  }
-  return {1.0, 1.0};
-}
-
 class SlenderSearch {
  public:
   SlenderSearch(const Mesh& mesh, const Unknowns& unknowns)
@@ -68,7 +47,7 @@ class SlenderSearch {
     std::optional<SlenderLayers> worst;
     for (const Vector& along : directions(across)) {
       if (!is_long(through.at(0.5 * through.length).cell, centre, along, least)) continue;
-      const SlenderCells of = kind_of(mesh_, other->cell, across, along);
+      const SlenderCells of = slender_cells(mesh_, other->cell, across, along);
       const BendingLayers layers = layers_of(of, through, across, along, times);
       if (worst && layers.length <= worst->layers.length) continue;
       worst = {.cell = mesh_.owner[face], .of = of, .along = along, .through = {}, .layers = layers};
@@ -128,13 +107,21 @@ class SlenderSearch {
 
   BendingLayers layers_of(SlenderCells of, const Line& through, const Vector& across, const Vector& along,
                           double times) const {
-    BendingLayers found{.n = 0.0, .thickness = times * through.length, .length = 0.0, .lone = 0.0};
+    BendingLayers found{.n = 0.0, .thickness = times * through.length, .length = 0.0, .stack = {}};
+    std::vector<StackLayer> layers;
     for (const LineSegment& in : through.segments) {
       const auto [boxes_across, boxes_along] =
-          mesh_.shape[in.cell] == CellShape::hexahedron ? std::pair{1.0, 1.0} : boxes_of(of);
-      found.n += times * in.length / (boxes_across * mean_chord(mesh_, in.cell, across));
+          mesh_.shape[in.cell] == CellShape::hexahedron ? std::array{1.0, 1.0} : boxes_of(of);
+      const Index zone = unknowns_.zone[in.cell];
+      layers.push_back({.cell = in.cell,
+                        .zone = zone,
+                        .thickness = in.length,
+                        .modulus = plate_modulus(unknowns_.sound[zone]),
+                        .count = in.length / (boxes_across * mean_chord(mesh_, in.cell, across))});
+      found.n += times * layers.back().count;
       found.length += in.length / through.length * boxes_along * mean_chord(mesh_, in.cell, along);
     }
+    found.stack = layer_stack(std::move(layers), times > 1.0);
     return found;
   }
 
@@ -152,27 +139,54 @@ bool may_be_slender(const Mesh& mesh, const Unknowns& unknowns) {
 
 }  // namespace
 
+SlenderCells slender_cells(const Mesh& mesh, Index cell, const Vector& across, const Vector& along) {
+  if (mesh.shape[cell] == CellShape::polyhedron) return SlenderCells::polyhedra;
+  if (mesh.shape[cell] != CellShape::wedge) return SlenderCells::tetrahedra;
+  const Vector axis = axis_of(mesh, cell);
+  const double by_across = std::abs(axis.dot(across)), by_along = std::abs(axis.dot(along));
+  if (std::max(by_across, by_along) < 0.5) return SlenderCells::prisms_within;
+  return by_across > by_along ? SlenderCells::prisms_across : SlenderCells::prisms_along;
+}
+
+std::array<double, 2> boxes_of(SlenderCells cells) {
+  switch (cells) {
+    case SlenderCells::prisms_across: return {1.0, 2.0};
+    case SlenderCells::prisms_within: return {2.0, 2.0};
+    case SlenderCells::prisms_along: return {2.0, 1.0};
+    case SlenderCells::tetrahedra: return {3.0, 3.0};
+    case SlenderCells::polyhedra: break;
+  }
+  return {1.0, 1.0};
+}
+
 double mean_chord(const Mesh& mesh, Index cell, const Vector& e) {
   double projected = 0.0;
   for (const Index f : mesh.faces_of_cell(cell)) projected += std::abs(mesh.face_area[f].dot(e));
   return 2.0 * mesh.cell_volume[cell] / projected;
 }
 
-// x is the excess of hexahedra as long, 1.5 (1 - nu) (length/thickness)^2; f tells how Poisson's effect across
+// x is the excess of hexahedra as long, 1.5 (1 - nu) (length/even_thickness)^2; f tells how Poisson's effect across
 // stiffens.
 double SlenderLayers::error(double nu) const {
-  const double f = poisson_share(nu);
-  const double x = layers.excess(nu), n = layers.n, flat = layers.length / layers.thickness * n;
+  const LayerStack& stack = layers.stack;
+  const double f = poisson_share(nu), x = layers.excess_of_stack(nu), n = stack.even_layers();
+  const double flat = layers.length / stack.even_thickness * n, rest = stack.layers - stack.lone;
+  const double sees = 1.0 - 0.45 * stack.of_lone;  // of the excess, where materials are of one layer
   switch (of) {
     case SlenderCells::prisms_across:
-      return 0.6 * flat / (flat + 1.6) * x / (1.0 + 0.1 * x) - (3.0 - 2.0 / n - 0.6 * f * (2.0 - 3.0 / n)) / (n * n);
-    case SlenderCells::prisms_within: return 1.3 * x / (1.0 + 0.3 * x) - (1.25 + 1.15 / n - 0.17 * f) / (n * n);
-    case SlenderCells::prisms_along: return x / (1.0 + 0.23 * x) - (0.88 - 0.08 * f) / (n * n);
-    case SlenderCells::tetrahedra: return 0.63 * x / (1.0 + 0.13 * x) - (0.2 + 0.95 / n - 0.14 * f) / (n * n);
+      return 0.6 * flat / (flat + 1.6) * x / (1.0 + 0.1 * x) - (3.0 - 2.0 / n - 0.6 * f * (2.0 - 3.0 / n)) * rest -
+             stack.lone;
+    case SlenderCells::prisms_within:
+      return sees * 1.3 * x / (1.0 + 0.3 * x) - (1.25 + 1.15 / n - 0.17 * f) * rest - 1.1 * stack.lone;
+    case SlenderCells::prisms_along: return x / (1.0 + 0.23 * x) - (0.88 - 0.08 * f) * rest - 0.7 * stack.lone;
+    case SlenderCells::tetrahedra:
+      return sees * 0.63 * x / (1.0 + 0.13 * x) - (0.2 + 0.95 / n - 0.14 * f) * rest - 0.6 * stack.lone;
     case SlenderCells::polyhedra: break;
   }
-  return 3.3 * flat * x / (1.0 + x) - 5.0 / (flat * n * n);
+  return 3.3 * flat * x / (1.0 + x) - 5.0 / flat * stack.layers;
 }
+
+double SlenderLayers::lack_of_cubics() const { return 0.5 * layers.stack.lone * layers.length / layers.thickness; }
 
 std::vector<SlenderLayers> slender_layers(const Mesh& mesh, const Unknowns& unknowns) {
   std::vector<SlenderLayers> all;

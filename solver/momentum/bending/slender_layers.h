@@ -9,7 +9,7 @@
 #include "solver/momentum/bending/bending_layers.h"
 #include "solver/momentum/body/unknowns.h"
 
-#include <string_view>
+#include <array>
 #include <vector>
 
 namespace pfdm {
@@ -21,6 +21,11 @@ enum class SlenderCells {
   tetrahedra,     ///< or pyramids
   polyhedra,
 };
+
+/// Of a cell that is no hexahedron; pyramids count as tetrahedra.
+SlenderCells slender_cells(const Mesh& mesh, Index cell, const Vector& across, const Vector& along);
+/// Sizes over mean chords, across and along: of the box that a pair of prisms or six tetrahedra fill.
+std::array<double, 2> boxes_of(SlenderCells cells);
 
 /// Layers across a body at a cell on its surface, in a direction in which it is at least three times as long as thick.
 struct SlenderLayers {
@@ -34,6 +39,8 @@ struct SlenderLayers {
   /// Bending stiffness with gradients of one ring (of tetrahedra: two) over the exact one, less 1. Measured with
   /// cantilevers of regular cells (bending.md): within a third, of polyhedra and two layers within a factor of two.
   double error(double nu) const;
+  /// Of prisms that fit cubics in plane meshes, too little: 0.5 lone length/thickness, of materials of one box across.
+  double lack_of_cubics() const;
 };
 
 /// At each free face from which the line across meets a cell that is no hexahedron, for the direction with the longest

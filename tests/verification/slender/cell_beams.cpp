@@ -82,11 +82,14 @@ Mesh make_cell_beam(const CellBeam& beam) {
   CellSoup soup;
   soup.region_names = {"body"};
   const auto [nx, ny, nz] = beam.boxes;
+  const auto level = [&](Index i, Index j) {
+    return beam.levels.empty() ? moved(j, beam.boxes[1], beam.noise, 37 * i + 71 * j + 5)
+                               : beam.levels[static_cast<std::size_t>(j)];
+  };
   for (Index k = 0; k <= nz; ++k)
     for (Index j = 0; j <= ny; ++j)
       for (Index i = 0; i <= nx; ++i)
-        soup.points.push_back(beam.size.cwiseProduct(Vector(moved(i, nx, beam.noise, 131 * i + 17 * j),
-                                                            moved(j, ny, beam.noise, 37 * i + 71 * j + 5),
+        soup.points.push_back(beam.size.cwiseProduct(Vector(moved(i, nx, beam.noise, 131 * i + 17 * j), level(i, j),
                                                             static_cast<double>(k) / static_cast<double>(nz))));
   for (Index k = 0; k < nz; ++k)
     for (Index j = 0; j < ny; ++j)

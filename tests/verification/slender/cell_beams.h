@@ -4,6 +4,7 @@
 #include "mesh/mesh.h"
 
 #include <array>
+#include <vector>
 
 namespace pfdm::verification {
 
@@ -21,6 +22,7 @@ struct CellBeam {
   std::array<Index, 3> boxes{1, 1, 1};
   Vector size = Vector::Ones();  ///< [m]
   bool alternates = false;       ///< diagonals of prisms turn from box to box
+  std::vector<double> levels{};  ///< of the boxes across, from 0 to 1, one more than boxes; empty: even
   double noise = 0.0;            ///< points within the beam move along x and y by up to half of this part of a box
 };
 
