@@ -183,7 +183,9 @@ double SlenderLayers::error(double nu) const {
       return sees * 0.63 * x / (1.0 + 0.13 * x) - (0.2 + 0.95 / n - 0.14 * f) * rest - 0.6 * stack.lone;
     case SlenderCells::polyhedra: break;
   }
-  return 3.3 * flat * x / (1.0 + x) - 5.0 / flat * stack.layers;
+  // By their number: those on the surfaces are halves.
+  const double excess = layers.excess(nu), ratio = layers.length / layers.thickness * layers.n;
+  return 3.3 * ratio * excess / (1.0 + excess) - 5.0 / (ratio * layers.n * layers.n);
 }
 
 double SlenderLayers::lack_of_cubics() const { return 0.5 * layers.stack.lone * layers.length / layers.thickness; }

@@ -213,7 +213,7 @@ TEST(LaminateBeams, OfPrismsAndTetrahedraAreWarnedOfByTheirContrast) {
     for (const In in : {In::across, In::along, In::within, In::tetrahedra}) {
       const bool converges = in != In::along;  // with few layers and ten times the modulus those along do not
       if (converges || ratio < 5.0) expect_truth({halves, ratio, {2, 2}, 33, in});
-      expect_truth({core, ratio, {2, 2, 2}, 33, in});
+      if (converges || ratio < 5.0) expect_truth({core, ratio, {2, 2, 2}, 33, in});
       if (converges) expect_truth({halves, ratio, {1, 1}, 66, in});
     }
 }
