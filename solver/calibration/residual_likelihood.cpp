@@ -46,15 +46,16 @@ double log_sum(const VectorXd& logarithms) {
 }
 
 /// L with L L^T = the covariance of weighted values of the process at the places, but for what rounding leaves
-/// (Cholesky's decomposition with pivots: smooth processes have few modes).
+/// (Cholesky's decomposition with pivots: smooth processes have few modes, some 50 of the shortest length).
 MatrixXd factor_of(const VectorXd& places, const VectorXd& weights, double length) {
   constexpr double negligible = 1e-10;
+  constexpr Eigen::Index most_modes = 300;
   const Eigen::Index n = places.size();
   VectorXd left = weights.array().square();
   const double least = negligible * left.maxCoeff();
-  MatrixXd L(n, n);
+  MatrixXd L(n, std::min(n, most_modes));
   Eigen::Index rank = 0;
-  for (Eigen::Index pivot = 0; rank < n && left.maxCoeff(&pivot) > least; ++rank) {
+  for (Eigen::Index pivot = 0; rank < L.cols() && left.maxCoeff(&pivot) > least; ++rank) {
     VectorXd column = L.leftCols(rank) * -L.row(pivot).head(rank).transpose();
     for (Eigen::Index i = 0; i < n; ++i)
       column[i] += weights[i] * weights[pivot] * kernel(places[i] - places[pivot], length);

@@ -3,15 +3,14 @@
 //
 // Model discrepancy (Kennedy, O'Hagan, J. R. Stat. Soc. B 63 (2001) 425): what the model lacks is a function of the
 // place, as of the displacement, that all data share: a Gaussian process of mean zero whose covariance between two
-// places is s^2 exp(-(x - x')^2 / (2 l^2)). Its amplitude s has the prior 1/s from a tenth of the noise to the size of
-// the data, its length l has 1/l from a twentieth of the range of the places to the whole. Both are summed over on a
-// grid. Parameters that such a function could stand in for become uncertain (Brynjarsdottir, O'Hagan, Inverse Problems
-// 30 (2014) 114007): what the data cannot tell is not told.
+// places is s^2 exp(-(x - x')^2 / (2 l^2)). Its amplitude s has the prior exp(-(s/A)^2/2) / s from a tenth of the noise
+// on, A a likely largest one. Its length l has the prior 1/l from a twentieth of the range of the places to the whole.
+// Both are summed over on a grid. Parameters that such a function could stand in for become uncertain (Brynjarsdottir,
+// O'Hagan, Inverse Problems 30 (2014) 114007): what the data cannot tell is not told.
 
 #include <Eigen/Core>
 
 #include <cstdint>
-#include <memory>
 #include <vector>
 
 namespace pfdm {
@@ -53,7 +52,7 @@ class IndependentResiduals : public ResidualLikelihood {
 struct ResidualPlaces {
   std::vector<double> at;     ///< place of each, as the displacement
   std::vector<double> scale;  ///< unit of each [that of the data]
-  double largest = 0.0;       ///< A [that of the data]
+  double largest = 1.0;       ///< A, positive [that of the data]
 };
 
 /// What is found of a discrepancy, at places from the first to the last: 95 % of its posterior.
@@ -100,7 +99,6 @@ class ResidualsWithDiscrepancy : public ResidualLikelihood {
     double ratio = 0.0;             // of the amplitude to the standard deviation of the noise, of mean scale
     Eigen::VectorXd shrink{};       // the inverse covariance is 1 - basis diag(shrink) basis^T
     double half_determinant = 0.0;  // half its logarithm, of the covariance
-    Eigen::MatrixXd squares{};      // phi^T squares phi = residuals^T inverse covariance residuals
   };
   struct Prediction;
   void find_modes();

@@ -63,7 +63,8 @@ void warn_of(const Posterior& sampled, std::vector<std::string>& warnings) {
                     sampled.effective));
 }
 
-/// Displacements as they were recorded. A discrepancy is hardly larger than twice what the best fit leaves.
+/// Displacements as they were recorded. A discrepancy is hardly larger than twice what the best fit leaves, or than
+/// twice the noise where that is more.
 ResidualPlaces places_of(const MeasuredPoints& points, double rms) {
   ResidualPlaces places;
   double scale = 0.0;
@@ -72,7 +73,7 @@ ResidualPlaces places_of(const MeasuredPoints& points, double rms) {
     places.scale.push_back(points.scale(point));
     scale += places.scale.back() / static_cast<double>(points.points.size());
   }
-  places.largest = 2.0 * rms * scale;
+  places.largest = 2.0 * scale * std::max(rms, points.noise_is_known ? 1.0 : 1e-12);
   return places;
 }
 
