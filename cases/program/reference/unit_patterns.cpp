@@ -1,5 +1,7 @@
 #include "cases/program/reference/unit_patterns.h"
 
+#include "cases/program/input/config/heat_units.h"
+
 #include <map>
 #include <string_view>
 #include <vector>
@@ -9,7 +11,7 @@ namespace {
 
 /// A unit's name stands in braces, a factor by a blank, a power by its exponent alone: "{FORCE}/{LENGTH}2".
 struct UnitForm {
-  std::string_view dimension;  ///< its SI unit
+  std::string_view dimension;  ///< its SI unit, or its name where others have the same unit
   std::vector<std::string_view> forms;
 };
 
@@ -30,12 +32,14 @@ const std::map<std::string_view, std::string>& classes() {
         {"POWER", "(?:" + p + "(?:W|watts?))"},
         {"FREQUENCY", "(?:" + p + "(?:Hz|hertz))"},
         {"TEMPERATURE", "(?:" + p + "(?:K|kelvins?)|degC|degF|celsius|fahrenheit|\u00b0C|\u00b0F|degrees?_[CF])"},
+        {"KELVIN", "(?:" + p + "(?:K|kelvins?))"},
         {"DIFFERENCE", "(?:" + p + "(?:K|kelvins?)|degC|\u00b0C|celsius)"},
         {"ANGLE",
          "(?:degrees?|arc_degrees?|\u00b0|" + p + "(?:rad|radians?)|arc_minutes?|arc_seconds?|grads?|gon|turns?)"},
         {"GRAVITY", "(?:g0|gravity|standard_gravity|g_n)"},
         {"VOLUME", "(?:" + p + "(?:l|L|liters?|litres?))"},
         {"VISCOSITY", "(?:" + p + "(?:P|poise))"},
+        {"AMOUNT", "(?:" + p + "(?:mol|moles?))"},
         {"NONE", "(?:1|%|percent|ppm)"},
     };
   }();
@@ -65,7 +69,11 @@ const std::vector<UnitForm>& unit_forms() {
       {"Pa s", {"{PRESSURE} {TIME}", "{FORCE} {TIME}/{LENGTH}2", "{VISCOSITY}"}},
       {"J/m^2",
        {"{ENERGY}/{LENGTH}2", "{ENERGY} {LENGTH}-2", "{FORCE}/{LENGTH}", "{FORCE} {LENGTH}-1", "{PRESSURE} {LENGTH}"}},
+      {"J/m^3", {"{ENERGY}/{LENGTH}3", "{ENERGY} {LENGTH}-3", "{PRESSURE}", "{FORCE}/{LENGTH}2", "{FORCE} {LENGTH}-2"}},
+      {"J/mol", {"{ENERGY}/{AMOUNT}", "{ENERGY} {AMOUNT}-1"}},
+      {"W/m^2", {"{POWER}/{LENGTH}2", "{POWER} {LENGTH}-2"}},
       {"Pa/m", {"{PRESSURE}/{LENGTH}", "{PRESSURE} {LENGTH}-1", "{FORCE}/{LENGTH}3", "{FORCE}/{LENGTH}2/{LENGTH}"}},
+      {dimension::temperature_difference.name, {"{KELVIN}"}},
       {"K", {"{TEMPERATURE}"}},
       {"radian", {"{ANGLE}"}},
       {"1", {"{NONE}", "{LENGTH}/{LENGTH}"}},
@@ -120,7 +128,7 @@ std::string pattern_of_form(std::string_view form) {
 
 std::string unit_pattern(const Dimension& due) {
   for (const UnitForm& known : unit_forms()) {
-    if (known.dimension != due.si_unit) continue;
+    if (known.dimension != due.si_unit && known.dimension != due.name) continue;
     std::string all;
     for (const std::string_view form : known.forms) all += (all.empty() ? "" : "|") + pattern_of_form(form);
     return "(?:" + all + ")";
@@ -129,7 +137,7 @@ std::string unit_pattern(const Dimension& due) {
 }
 
 std::string quantity_pattern(const Dimension& due, const Range& allowed) {
-  const bool has_zero_elsewhere = due.si_unit == dimension::temperature.si_unit;
+  const bool has_zero_elsewhere = due.name == dimension::temperature.name;
   const bool not_negative = allowed.least >= 0.0 && !has_zero_elsewhere;
   const bool positive = not_negative && !allowed.holds(0.0);
   const std::string mantissa = positive ? "(?:[0-9]*[1-9][0-9]*(?:\\.[0-9]*)?|[0-9]*\\.[0-9]*[1-9][0-9]*)"

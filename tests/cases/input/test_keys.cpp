@@ -1,6 +1,7 @@
 // Rows of keys: each says what it is; help, the schema for editors and the reference of the repository are made of
 // them.
 
+#include "cases/program/input/config/heat_units.h"
 #include "cases/program/kinds.h"
 #include "cases/program/reference/key_help.h"
 #include "cases/program/reference/key_reference.h"
@@ -55,6 +56,7 @@ void expect_sound(const KeyType& type, const std::string& path) {
     const std::string example(type.due->example);
     if (type.due->si_unit == "1") return;  // "0.3" of a plain number
     EXPECT_NO_THROW(parse_quantity(example, *type.due)) << path;
+    EXPECT_NE(unit_pattern(*type.due), ".+") << path << ": editors know no units of this dimension";
     EXPECT_TRUE(std::regex_match(example, std::regex(quantity_pattern(*type.due, range::any))))
         << path << ": " << example;
   }
@@ -124,6 +126,8 @@ TEST(Keys, HavePatternsThatAgreeWithTheUnitsLibrary) {
       {dimension::energy, {"1 mJ", "3 N m", "2 uJ"}, {"1 J/m", "2 W"}},
       {dimension::force, {"10 N", "2 kN", "1 lbf"}, {"10 Pa", "2 N/m"}},
       {dimension::mass, {"50 g", "3 kg"}, {"50 N", "1 m"}},
+      {dimension::heat_flux, {"100 W/m^2", "2 kW m-2"}, {"100 W", "2 J/m^2"}},
+      {dimension::molar_energy, {"60 kJ/mol", "6e4 J/mol"}, {"60 kJ", "2 J/kg"}},
       {dimension::area, {"4 mm^2", "1 cm2"}, {"4 mm", "1 m^3"}},
   };
   for (const auto& [due, right, wrong] : cases) {

@@ -2,6 +2,7 @@
 
 #include "cases/program/fracture/body/boundary_reader.h"
 #include "cases/program/input/config/field_keys.h"
+#include "cases/program/input/config/heat_units.h"
 #include "cases/program/input/laws/law_keys.h"
 #include "physics/damage/crack_geometry.h"
 #include "physics/damage/degradation.h"
@@ -17,7 +18,6 @@ constexpr Range above_zero_below_one{0.0, 1.0, true, "above 0 and below 1"};
 constexpr Range below_half{0.0, 0.5, false, "between 0 and 0.5"};
 constexpr Dimension force_per_volume{"force per volume", "N/m^3", "20 kN/m^3"};
 constexpr Dimension energy_per_volume{"energy per volume", "J/m^3", "50 kJ/m^3"};
-constexpr Dimension difference_of_temperature{"temperature", "K", "20 K"};
 constexpr Dimension foundation_stiffness{"stiffness per area", "N/m^3", "50 MN/m^3"};
 
 constexpr ParameterWords split_words[] = {
@@ -212,7 +212,7 @@ const KeyTable& load_keys() {
            "Acceleration of gravity along x, y, z, which acts on the materials' density."},
           {"body_force", list(varying(quantity(force_per_volume)), 3, 3), "none",
            "Force per reference volume along x, y, z in all regions, such as a centrifugal force."},
-          {"temperature_change", varying(quantity(difference_of_temperature)), "none",
+          {"temperature_change", varying(quantity(dimension::temperature_difference)), "none",
            "Change of temperature, a difference in K, by the materials' expansion and temperature_shift."},
           {"start_temperature", quantity(dimension::temperature, range::positive), "none",
            "Temperature of the body at the start, for materials with a temperature_shift."},

@@ -16,7 +16,7 @@ const KeyTable& shift_keys() {
                {"reference", quantity(dimension::temperature, range::positive), "",
                 "Temperature at which the branches have their times, as in \"25 degC\"."},
                {"C1", number(range::positive), "", "First constant of WLF: log10 a_T = -C1 dT/(C2 + dT).", "wlf"},
-               {"C2", quantity(dimension::temperature, range::positive), "",
+               {"C2", quantity(dimension::temperature_difference, range::positive), "",
                 "Second constant of WLF, a difference in K.", "wlf"},
                {"activation_energy", quantity(dimension::molar_energy, range::positive), "",
                 "Activation energy E of Arrhenius: ln a_T = E/R (1/T - 1/reference).", "arrhenius"}},

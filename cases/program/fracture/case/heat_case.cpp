@@ -15,7 +15,6 @@ namespace {
 
 constexpr Range share_range{0.0, 1.0, true, "above 0 and below 1"};
 constexpr Range steps_range{1.0, 1e6, false, "between 1 and 1e6"};
-constexpr Dimension heat_flux{"heat flux", "W/m^2", "100 W/m^2"};
 
 const KeyTable& heat_boundary_keys() {
   using namespace keys;
@@ -24,12 +23,13 @@ const KeyTable& heat_boundary_keys() {
       .sentence = "What heat does on patches of the mesh; patches that no entry names are insulated.",
       .keys = {{"patch", text("patch"), "or patches", "Name of the patch of the mesh that the condition is for."},
                {"patches", list(text("patch"), 1), "or patch", "Names of the patches that the condition is for."},
-               {"rise", quantity(dimension::temperature), "or flux, heat_transfer",
+               {"rise", quantity(dimension::temperature_difference), "or flux, heat_transfer",
                 "Temperature of the patch above that of the start, a difference in K."},
-               {"flux", quantity(heat_flux), "or rise, heat_transfer", "Heat flux through the patch into the body."},
+               {"flux", quantity(dimension::heat_flux), "or rise, heat_transfer",
+                "Heat flux through the patch into the body."},
                {"heat_transfer", quantity(dimension::heat_transfer, range::positive), "or rise, flux",
                 "Heat transfer coefficient to the surroundings, as by convection."},
-               {"surroundings", quantity(dimension::temperature), "\"0 K\"",
+               {"surroundings", quantity(dimension::temperature_difference), "\"0 K\"",
                 "Temperature beyond a heat transfer above that of the start, a difference in K."}}};
   return table;
 }
