@@ -19,16 +19,17 @@ using Eigen::VectorXd;
 
 namespace {
 
-constexpr int n_lengths = 8, n_ratios = 20;
+constexpr std::size_t n_lengths = 8, n_ratios = 20;
 constexpr double shortest = 0.05;        // length, of the range of the places
 constexpr double least_ratio = 0.1;      // of the amplitude to the noise
 constexpr double most_if_unknown = 1e3;  // of this ratio, where the noise is not known
 constexpr double far_out = 4.0;          // times the largest amplitude, where it is
 
 /// Evenly in the logarithm.
-std::vector<double> spread_out(double from, double to, int n) {
-  std::vector<double> values;
-  for (int i = 0; i < n; ++i) values.push_back(from * std::pow(to / from, static_cast<double>(i) / (n - 1)));
+std::vector<double> spread_out(double from, double to, std::size_t n) {
+  std::vector<double> values(n);
+  for (std::size_t i = 0; i < n; ++i)
+    values[i] = from * std::pow(to / from, static_cast<double>(i) / static_cast<double>(n - 1));
   return values;
 }
 

@@ -111,6 +111,7 @@ class LayerLines {
 
   std::vector<StackLayer> layers_of(const std::vector<Step>& steps) const {
     std::vector<StackLayer> layers;
+    layers.reserve(steps.size());
     for (const auto& [c, a] : steps)
       layers.push_back({.cell = c,
                         .zone = unknowns_.zone[c],

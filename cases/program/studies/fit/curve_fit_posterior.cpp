@@ -3,6 +3,7 @@
 #include "cases/program/studies/fit/curve_fit_at_work.h"
 #include "physics/error.h"
 #include "postproc/files/csv_table.h"
+#include "solver/calibration/calibration_statistics.h"
 #include "solver/calibration/posterior.h"
 
 #include <fmt/format.h>
