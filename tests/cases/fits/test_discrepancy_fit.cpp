@@ -1,7 +1,7 @@
 // Fits whose posterior holds a discrepancy of the model ([fit] intervals = "discrepancy").
 
 #include "postproc/files/csv_table.h"
-#include "tests/cases/glued_blocks.h"
+#include "tests/cases/fits/glued_fit.h"
 
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
@@ -9,68 +9,20 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <random>
 
 namespace pfdm::this_file {
 namespace {
 
 using ::testing::HasSubstr;
 
-constexpr double deviation = 0.004;  // of the force [N], whose largest is 2 N
-
-std::string with_discrepancy(const std::string& events = "") {
-  return glued_blocks(
-             "name = \"glue\"\nbetween = [\"left\", \"right\"]\nlaw = \"linear\"\nstrength = \"1.6 MPa\"\n"
-             "toughness = \"130 J/m^2\"\n") +
-         R"(
-[experiment]
-stiffness_between = ["20 um", "40 um"]
-[[experiment.specimens]]
-name = "glue"
-csv = "data.csv"
-displacement = { column = "displacement_m" }
-force = { column = "force_N" }
-deviation = { column = "deviation_N" }
-)" + events +
-         R"(
-[fit]
-intervals = "discrepancy"
-[[fit.parameters]]
-key = "interface[0].strength"
-bounds = ["0.5 MPa", "8 MPa"]
-[[fit.parameters]]
-key = "interface[0].toughness"
-bounds = ["20 J/m^2", "500 J/m^2"]
-)";
-}
-
 // What is added to the force at u that no linear law has [N].
 double bend(double u) { return 0.05 * std::sin(std::numbers::pi * (u - 13e-6) / 40e-6); }
-
-// u = delta + 2 L T/E, T = strength (1 - delta/delta_f), with normal noise.
-void measure(const TemporaryCase& directory, double share_of_bend) {
-  const double compliance = 2e-3 / 1e9, final_opening = 2.0 * toughness / strength, area = 1e-6;
-  std::mt19937 engine(11);
-  std::normal_distribution<double> noise(0.0, deviation);
-  CsvTable data;
-  data.comments = {"SYNTHETIC, made by the test"};
-  std::vector<double> u, force;
-  for (int i = 13; i <= 95; ++i) {
-    u.push_back(1e-6 * i);
-    const double opening = (u.back() - compliance * strength) / (1.0 - compliance * strength / final_opening);
-    force.push_back(area * strength * (1.0 - opening / final_opening) + share_of_bend * bend(u.back()) + noise(engine));
-  }
-  data.add("displacement_m", u);
-  data.add("force_N", force);
-  data.add("deviation_N", std::vector(u.size(), deviation));
-  write_csv(directory.path() / "data.csv", data);
-}
 
 // The fit is questionable, and its intervals would miss the truth. Those of the posterior hold it, and the band of the
 // discrepancy holds what the model lacks.
 TEST(DiscrepancyFit, HoldsTheTruthOfAModelThatLacksSomething) {
-  const TemporaryCase directory(with_discrepancy());
-  measure(directory, 1.0);
+  const TemporaryCase directory(glued_fit(glue_guess, "discrepancy"));
+  record_glue(directory, bend);
   const std::string place = directory.path().string();
   const Outcome outcome = run({"fit", place});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
@@ -104,12 +56,12 @@ TEST(DiscrepancyFit, HoldsTheTruthOfAModelThatLacksSomething) {
 
 // A model that lacks nothing: a sound fit, whose posterior is wider for what the model might lack.
 TEST(DiscrepancyFit, IsSoundWhereTheModelIsRight) {
-  const TemporaryCase directory(with_discrepancy());
-  measure(directory, 0.0);
+  const TemporaryCase directory(glued_fit(glue_guess, "discrepancy"));
+  record_glue(directory);
   ASSERT_EQ(run({"fit", directory.path().string()}).status, 0);
   const auto fit = nlohmann::json::parse(content_of(directory.results() / "fit.json"));
   ASSERT_EQ(fit["verdict"], "sound") << fit["reasons"];
-  EXPECT_LT(fit["posterior"]["discrepancy"]["amplitude_N"]["median"].get<double>(), deviation);
+  EXPECT_LT(fit["posterior"]["discrepancy"]["amplitude_N"]["median"].get<double>(), glue_deviation);
   const double due[] = {strength, toughness};
   for (std::size_t k = 0; k < 2; ++k) {
     const auto& p = fit["parameters"][k];
@@ -123,8 +75,8 @@ TEST(DiscrepancyFit, IsSoundWhereTheModelIsRight) {
 }
 
 TEST(DiscrepancyFit, IsOfTheCurveAlone) {
-  const TemporaryCase directory(with_discrepancy("[[experiment.events]]\nevent = \"jump\"\n"));
-  measure(directory, 0.0);
+  const TemporaryCase directory(glued_fit(glue_guess, "discrepancy", "[[experiment.events]]\nevent = \"jump\"\n"));
+  record_glue(directory);
   const Outcome outcome = run({"fit", directory.path().string()});
   EXPECT_EQ(outcome.status, 2);
   EXPECT_THAT(outcome.err, HasSubstr("intervals"));

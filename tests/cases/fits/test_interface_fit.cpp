@@ -5,13 +5,12 @@
 #include "cases/program/input/case_files/case_file.h"
 #include "postproc/files/csv_table.h"
 #include "postproc/page/display_unit.h"
-#include "tests/cases/glued_blocks.h"
+#include "tests/cases/fits/glued_fit.h"
 
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
 #include <cmath>
-#include <random>
 #include <sstream>
 
 namespace pfdm::this_file {
@@ -19,53 +18,13 @@ namespace {
 
 using ::testing::HasSubstr;
 
-constexpr double deviation = 0.004;  // of the force [N], whose largest is 2 N
-
-std::string with_fit(const std::string& interface) {
-  return glued_blocks(interface) + R"(
-[experiment]
-stiffness_between = ["20 um", "40 um"]
-[[experiment.specimens]]
-name = "glue"
-csv = "data.csv"
-displacement = { column = "displacement_m" }
-force = { column = "force_N" }
-deviation = { column = "deviation_N" }
-[fit]
-intervals = "profile"
-[[fit.parameters]]
-key = "interface[0].strength"
-bounds = ["0.5 MPa", "8 MPa"]
-[[fit.parameters]]
-key = "interface[0].toughness"
-bounds = ["20 J/m^2", "500 J/m^2"]
-)";
-}
-
-const std::string first_guess =
-    "name = \"glue\"\nbetween = [\"left\", \"right\"]\nlaw = \"linear\"\nstrength = \"1.6 MPa\"\n"
-    "toughness = \"130 J/m^2\"\n";
-
-// u = delta + 2 L T/E, T = strength (1 - delta/delta_f), with normal noise. Returns the least-squares line.
+// Writes the record; returns its least-squares line.
 struct Straight {
   double strength, toughness;  // [Pa], [J/m^2]
 };
 Straight measure(const TemporaryCase& directory) {
-  const double compliance = 2e-3 / 1e9, final_opening = 2.0 * toughness / strength, area = 1e-6;
-  std::mt19937 engine(11);
-  std::normal_distribution<double> noise(0.0, deviation);
-  CsvTable data;
-  data.comments = {"SYNTHETIC, made by the test"};
-  std::vector<double> u, force;
-  for (int i = 13; i <= 95; ++i) {
-    u.push_back(1e-6 * i);
-    const double opening = (u.back() - compliance * strength) / (1.0 - compliance * strength / final_opening);
-    force.push_back(area * strength * (1.0 - opening / final_opening) + noise(engine));
-  }
-  data.add("displacement_m", u);
-  data.add("force_N", force);
-  data.add("deviation_N", std::vector(u.size(), deviation));
-  write_csv(directory.path() / "data.csv", data);
+  const double compliance = 2e-3 / 1e9, area = 1e-6;
+  const auto [u, force] = record_glue(directory);
   double n = 0, su = 0, sf = 0, suu = 0, suf = 0;
   for (std::size_t i = 0; i < u.size(); ++i)
     n += 1, su += u[i], sf += force[i], suu += u[i] * u[i], suf += u[i] * force[i];
@@ -107,7 +66,7 @@ std::vector<std::string> captions_of(const ReportPage& page) {
 }
 
 TEST(InterfaceFit, FindsTheLineThatTheLawIsAndExportsIt) {
-  const TemporaryCase directory(with_fit(first_guess));
+  const TemporaryCase directory(glued_fit(glue_guess, "profile"));
   const Straight line = measure(directory);
   const std::string place = directory.path().string();
   const Outcome outcome = run({"fit", place});
@@ -167,7 +126,7 @@ TEST(InterfaceFit, FindsTheLineThatTheLawIsAndExportsIt) {
 
 // Each law of the posterior is a line from the strength to 2 toughness/strength: the band is that of the samples.
 TEST(InterfaceFit, HasALawWithABand) {
-  std::string text = with_fit(first_guess);
+  std::string text = glued_fit(glue_guess, "profile");
   text.replace(text.find("\"profile\""), std::string("\"profile\"").size(), "\"posterior\"");
   const TemporaryCase directory(text);
   const Straight line = measure(directory);
@@ -208,7 +167,7 @@ TEST(InterfaceFit, HasALawWithABand) {
 
 // Blocks of half the cells and of stone that is 0.7 times as stiff lead the fit: by themselves they would be 3 % off.
 TEST(InterfaceFit, IsLedByACoarseCaseToTheSameLine) {
-  std::string text = with_fit(first_guess);
+  std::string text = glued_fit(glue_guess, "profile");
   text.replace(text.find("intervals = \"profile\""), std::string("intervals = \"profile\"").size(),
                "coarse = { \"mesh.x[0].cells\" = 4, \"materials.stone.young_modulus\" = \"0.7 GPa\" }");
   const TemporaryCase directory(text);

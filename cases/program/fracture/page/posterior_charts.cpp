@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace pfdm {
 namespace {
@@ -62,6 +63,18 @@ Chart pair_chart(const Samples& a, const Samples& b) {
       .caption = "Posterior: samples", .x = {.title = a.title}, .y = {.title = b.title}, .series = {std::move(series)}};
 }
 
+/// 95 % of the posterior, and a line with it.
+std::vector<Series> line_with_band(std::string label, const std::vector<double>& x, std::vector<double> line,
+                                   std::vector<double> lower, std::vector<double> upper) {
+  return {{.label = "95 % of the posterior",
+           .x = x,
+           .y = std::move(lower),
+           .style = SeriesStyle::band,
+           .colour = 7,
+           .upper = std::move(upper)},
+          {.label = std::move(label), .x = x, .y = std::move(line), .colour = 0}};
+}
+
 Chart law_chart(const CsvTable& table) {
   const std::vector<double>&s = table.column("separation_m"), &estimate = table.column("traction_Pa"),
         &lower = table.column("lower_traction_Pa"), &upper = table.column("upper_traction_Pa");
@@ -72,13 +85,7 @@ Chart law_chart(const CsvTable& table) {
   return {.caption = fmt::format("L{} in opening, with its posterior", comment.substr(1, end - 1)),
           .x = {.title = fmt::format("separation [{}]", x.name), .from = 0.0},
           .y = {.title = fmt::format("traction [{}]", y.name), .from = 0.0},
-          .series = {{.label = "95 % of the posterior",
-                      .x = at,
-                      .y = in_unit(lower, y),
-                      .style = SeriesStyle::band,
-                      .colour = 7,
-                      .upper = in_unit(upper, y)},
-                     {.label = "estimates", .x = at, .y = in_unit(estimate, y), .colour = 0}}};
+          .series = line_with_band("estimates", at, in_unit(estimate, y), in_unit(lower, y), in_unit(upper, y))};
 }
 
 Chart discrepancy_chart(const CsvTable& table) {
@@ -89,13 +96,7 @@ Chart discrepancy_chart(const CsvTable& table) {
   return {.caption = "What the model lacks: measured less computed force, by the posterior",
           .x = {.title = fmt::format("displacement [{}]", x.name)},
           .y = {.title = fmt::format("force [{}]", y.name)},
-          .series = {{.label = "95 % of the posterior",
-                      .x = places,
-                      .y = in_unit(lower, y),
-                      .style = SeriesStyle::band,
-                      .colour = 7,
-                      .upper = in_unit(upper, y)},
-                     {.label = "median", .x = places, .y = in_unit(median, y), .colour = 0}}};
+          .series = line_with_band("median", places, in_unit(median, y), in_unit(lower, y), in_unit(upper, y))};
 }
 
 }  // namespace
