@@ -126,9 +126,7 @@ TEST(InterfaceFit, FindsTheLineThatTheLawIsAndExportsIt) {
 
 // Each law of the posterior is a line from the strength to 2 toughness/strength: the band is that of the samples.
 TEST(InterfaceFit, HasALawWithABand) {
-  std::string text = glued_fit(glue_guess, "profile");
-  text.replace(text.find("\"profile\""), std::string("\"profile\"").size(), "\"posterior\"");
-  const TemporaryCase directory(text);
+  const TemporaryCase directory(glued_fit(glue_guess, "posterior"));
   const Straight line = measure(directory);
   ASSERT_EQ(run({"fit", directory.path().string()}).status, 0);
   const auto fit = nlohmann::json::parse(content_of(directory.results() / "fit.json"));
