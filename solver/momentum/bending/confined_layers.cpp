@@ -127,7 +127,7 @@ class ConfinedSearch {
       if (at.width > least_width * found.thickness) found.spans[static_cast<std::size_t>(found.n_spans++)] = at;
     };
     if (!unknowns_.plane_normal.isZero()) {
-      const Vector along = unknowns_.plane_normal.cross(across).normalized();
+      Vector along = unknowns_.plane_normal.cross(across).normalized();
       add(along);
       if (found.n_spans == 1 && reaches_axis(cell, within)) found.spans[1] = found.spans[0], found.n_spans = 2;
       return along;
