@@ -6,8 +6,6 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Geometry>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -173,17 +171,6 @@ double grow_fully(GrowingSpheres& spheres, const SpherePacking& packing) {
 }
 
 }  // namespace
-
-double RandomNumbers::normal() {
-  const double radius = std::sqrt(-2.0 * portable::log(1.0 - uniform()));
-  return radius * portable::cos(2.0 * std::numbers::pi * uniform());
-}
-
-// A unit quaternion of four normal numbers.
-Tensor RandomNumbers::rotation() {
-  const double w = normal(), x = normal(), y = normal(), z = normal();
-  return Eigen::Quaterniond(w, x, y, z).normalized().toRotationMatrix();
-}
 
 double volume_fraction(const SpherePacking& packing) {
   return volume_of(packing.radii, 0.0) / (packing.upper - packing.lower).prod();

@@ -4,24 +4,12 @@
 // random sequential addition, which never moves a sphere, ends at a volume fraction of about 0.3.
 
 #include "mesh/fields.h"
+#include "physics/random_numbers.h"
 
 #include <cstdint>
-#include <random>
 #include <vector>
 
 namespace pfdm {
-
-/// Numbers that are the same on every machine (the standard leaves its distributions open, not its engines).
-class RandomNumbers {
- public:
-  explicit RandomNumbers(std::uint64_t seed) : engine_(seed) {}
-  double uniform() { return static_cast<double>(engine_() >> 11U) * 0x1p-53; }  ///< of [0, 1)
-  double normal();                                                              ///< mean 0, variance 1
-  Tensor rotation();                                                            ///< all alike probable
-
- private:
-  std::mt19937_64 engine_;
-};
 
 struct SpherePacking {
   Vector lower = Vector::Zero();  ///< corners of the box [m]

@@ -16,7 +16,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr int format = 1;
 
-Json to_json(const PosteriorInterval& interval) {
+Json to_json(const SampledInterval& interval) {
   return {{"median", interval.median}, {"lower", interval.lower}, {"upper", interval.upper}};
 }
 
@@ -130,11 +130,11 @@ std::optional<FittedProfile> profile_in(const Json& parameter) {
                        .upper_open = p.at("upper_open")};
 }
 
-PosteriorInterval interval_in(const Json& p) {
+SampledInterval interval_in(const Json& p) {
   return {.median = number_of(p.at("median")), .lower = number_of(p.at("lower")), .upper = number_of(p.at("upper"))};
 }
 
-std::optional<PosteriorInterval> posterior_of(const Json& parameter) {
+std::optional<SampledInterval> posterior_of(const Json& parameter) {
   if (!parameter.contains("posterior")) return std::nullopt;
   return interval_in(parameter.at("posterior"));
 }

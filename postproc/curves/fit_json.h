@@ -3,6 +3,7 @@
 // fits belongs in FitReport and write_fit_json(); cases/README.md lists the fields.
 
 #include "postproc/curves/measured_curve.h"
+#include "solver/calibration/calibration_statistics.h"
 #include "solver/calibration/calibration_verdict.h"
 
 #include <filesystem>
@@ -19,11 +20,6 @@ struct FittedProfile {
   bool lower_open = false, upper_open = false;  ///< the data allow everything up to the bound
 };
 
-/// Of the posterior of a parameter (solver/calibration/posterior.h): its median, and the ends of the interval.
-struct PosteriorInterval {
-  double median = 0.0, lower = 0.0, upper = 0.0;
-};
-
 struct FittedParameter {
   std::string name;
   std::string unit;
@@ -36,17 +32,17 @@ struct FittedParameter {
   bool at_bound = false;
   bool log_scale = false;
   std::optional<FittedProfile> profile = std::nullopt;
-  std::optional<PosteriorInterval> posterior = std::nullopt;
-  double widened_by = 1.0;  ///< standard error and interval, for correlated residuals
+  std::optional<SampledInterval> posterior = std::nullopt;  ///< solver/calibration/posterior.h
+  double widened_by = 1.0;                                  ///< standard error and interval, for correlated residuals
   /// How far a finer discretisation moves the estimate, to first order; NaN: it was not tried.
   double moved_by_finer = std::numeric_limits<double>::quiet_NaN();
 };
 
 /// A smooth discrepancy of the model in the posterior (solver/calibration/residual_likelihood.h).
 struct DiscrepancyFindings {
-  std::string file;               ///< over displacement
-  PosteriorInterval amplitude{};  ///< of its force [N]
-  PosteriorInterval length{};     ///< over which it varies [m]
+  std::string file;             ///< over displacement
+  SampledInterval amplitude{};  ///< of its force [N]
+  SampledInterval length{};     ///< over which it varies [m]
 };
 
 /// What the posterior of all parameters together rests on.

@@ -195,6 +195,10 @@ double quantile(std::vector<double> values, double share) {
   return values[at];
 }
 
+SampledInterval interval_of(const std::vector<double>& samples) {
+  return {quantile(samples, 0.5), quantile(samples, 0.025), quantile(samples, 0.975)};
+}
+
 double effective_number(const std::vector<Eigen::VectorXd>& chain) {
   constexpr std::size_t n_stretches = 20;
   const std::size_t length = chain.size() / n_stretches;

@@ -1,6 +1,7 @@
 #include "solver/calibration/posterior.h"
 
 #include "physics/error.h"
+#include "physics/random_numbers.h"
 #include "solver/calibration/calibration_statistics.h"
 #include "solver/calibration/held_parameter.h"
 #include "solver/calibration/quasi_random.h"
@@ -15,7 +16,6 @@
 #include <limits>
 #include <memory>
 #include <numbers>
-#include <random>
 #include <utility>
 
 namespace pfdm {
@@ -30,7 +30,7 @@ constexpr double beyond = 1.2;          // how much farther than the points the 
 class Sampler {
  public:
   Sampler(const FitProblem& problem, const FitResult& result, const PosteriorSettings& how)
-      : problem_(problem), how_(how), engine_(how.seed), emulator_(std::ssize(problem.parameters)) {
+      : problem_(problem), how_(how), random_(how.seed), emulator_(std::ssize(problem.parameters)) {
     const Eigen::LLT<MatrixXd> factor(result.covariance);
     const auto k = std::ssize(problem.parameters);
     if (result.covariance.rows() != k || !result.covariance.allFinite() || factor.info() != Eigen::Success)
@@ -142,7 +142,7 @@ class Sampler {
     constexpr double farther = 1.3;
     std::vector<VectorXd> points;
     for (std::size_t i = 0; i < n_in_batch(); ++i) {
-      const VectorXd& z = chain_[static_cast<std::size_t>(uniform() * static_cast<double>(chain_.size()))];
+      const VectorXd& z = chain_[static_cast<std::size_t>(random_.uniform() * static_cast<double>(chain_.size()))];
       points.push_back(within_bounds(found_.is_cut ? farther * z : z));
     }
     return points;
@@ -210,12 +210,6 @@ class Sampler {
     return std::sqrt(std::max(0.0, squares / n - sum * sum / (n * n)));
   }
 
-  double uniform() { return static_cast<double>(engine_() >> 11) * 0x1.0p-53; }
-  double normal() {
-    const double radius = std::sqrt(-2.0 * std::log(1.0 - uniform()));  // first, whatever the compiler
-    return radius * std::cos(2.0 * std::numbers::pi * uniform());
-  }
-
   struct Walker {
     VectorXd z;
     double logarithm;
@@ -229,7 +223,7 @@ class Sampler {
       bool is_possible = false;
       for (int tried = 0; tried < most_tried && !is_possible; ++tried) {
         const double nearer = std::pow(0.9, tried / 10);  // where bounds are narrow
-        for (double& entry : z) entry = nearer * normal();
+        for (double& entry : z) entry = nearer * random_.normal();
         is_possible = std::isfinite(logarithm(z));
       }
       if (!is_possible) z.setZero();
@@ -243,11 +237,12 @@ class Sampler {
     const std::size_t half = walkers.size() / 2;
     const auto dimension = static_cast<double>(centre_.size());
     for (std::size_t i = 0; i < walkers.size(); ++i) {
-      const std::size_t other = (i < half ? half : 0) + static_cast<std::size_t>(uniform() * static_cast<double>(half));
-      const double stretch = std::pow(1.0 + uniform(), 2) / 2.0;
+      const std::size_t other =
+          (i < half ? half : 0) + static_cast<std::size_t>(random_.uniform() * static_cast<double>(half));
+      const double stretch = std::pow(1.0 + random_.uniform(), 2) / 2.0;
       const VectorXd z = walkers[other].z + stretch * (walkers[i].z - walkers[other].z);
       const double at = logarithm(z);
-      if (std::log(1.0 - uniform()) < (dimension - 1.0) * std::log(stretch) + at - walkers[i].logarithm)
+      if (std::log(1.0 - random_.uniform()) < (dimension - 1.0) * std::log(stretch) + at - walkers[i].logarithm)
         walkers[i] = {z, at};
     }
   }
@@ -272,7 +267,7 @@ class Sampler {
 
   const FitProblem& problem_;
   const PosteriorSettings& how_;
-  std::mt19937_64 engine_;
+  RandomNumbers random_;
   MatrixXd axes_;            // of the linear interval's ellipsoid, a standard error long
   VectorXd centre_, reach_;  // in what is fitted; of the emulator, along the axes
   ResidualNoise noise_;
@@ -286,12 +281,14 @@ class Sampler {
 
 }  // namespace
 
-double Posterior::quantile(std::size_t k, double share) const {
+std::vector<double> Posterior::of_parameter(std::size_t k) const {
   std::vector<double> values;
   values.reserve(samples.size());
   for (const std::vector<double>& sample : samples) values.push_back(sample[k]);
-  return pfdm::quantile(std::move(values), share);
+  return values;
 }
+
+double Posterior::quantile(std::size_t k, double share) const { return pfdm::quantile(of_parameter(k), share); }
 
 Posterior posterior(const FitProblem& problem, const FitResult& result, const PosteriorSettings& how) {
   return Sampler(problem, result, how).sample();

@@ -43,7 +43,8 @@ struct Posterior {
   int evaluations = 0, failures = 0;  ///< of the model; points at which it does not converge, and which do not count
   std::optional<ModelDiscrepancy> discrepancy = {};  ///< where the model may have one
 
-  double quantile(std::size_t k, double share) const;  ///< of the samples of parameter k
+  std::vector<double> of_parameter(std::size_t k) const;  ///< its samples
+  double quantile(std::size_t k, double share) const;     ///< of these
 };
 
 /// Of a fit that determines all its parameters within their bounds. Throws NoConvergence where it does not, or where

@@ -1,6 +1,6 @@
 #include "solver/calibration/residual_likelihood.h"
 
-#include "solver/calibration/calibration_statistics.h"
+#include "physics/random_numbers.h"
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
@@ -8,8 +8,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numbers>
-#include <random>
 #include <utility>
 
 namespace pfdm {
@@ -65,10 +63,6 @@ MatrixXd factor_of(const VectorXd& places, const VectorXd& weights, double lengt
     left[pivot] = 0.0;
   }
   return L.leftCols(rank);
-}
-
-ModelDiscrepancy::Interval interval_of(const std::vector<double>& values) {
-  return {quantile(values, 0.5), quantile(values, 0.025), quantile(values, 0.975)};
 }
 
 }  // namespace
@@ -223,8 +217,7 @@ ResidualsWithDiscrepancy::Prediction ResidualsWithDiscrepancy::predict(const Nod
 
 ModelDiscrepancy ResidualsWithDiscrepancy::found(const std::vector<VectorXd>& phis, std::uint64_t seed) const {
   constexpr Eigen::Index n_places = 61;
-  std::mt19937_64 engine(seed);
-  const auto uniform = [&engine] { return static_cast<double>(engine() >> 11) * 0x1.0p-53; };
+  RandomNumbers random(seed);
   const VectorXd at = VectorXd::LinSpaced(n_places, places_.minCoeff(), places_.maxCoeff());
   std::map<Eigen::Index, Prediction> predictions;
   std::vector<double> amplitudes, lengths;
@@ -232,7 +225,8 @@ ModelDiscrepancy ResidualsWithDiscrepancy::found(const std::vector<VectorXd>& ph
   for (const VectorXd& phi : phis) {
     const VectorXd sums = sums_at(phi), weights = weights_of(logarithms(sums));
     Eigen::Index drawn = 0;
-    for (double rest = uniform() - weights[0]; rest > 0.0 && drawn + 1 < weights.size();) rest -= weights[++drawn];
+    for (double rest = random.uniform() - weights[0]; rest > 0.0 && drawn + 1 < weights.size();)
+      rest -= weights[++drawn];
     const Node& node = nodes_[drawn];
     const double variance = noise_.is_known ? 1.0 : sums[drawn] / (noise_.freedom + noise_.n_parameters);
     const double noise = mean_scale_ * std::sqrt(variance);
@@ -241,16 +235,13 @@ ModelDiscrepancy ResidualsWithDiscrepancy::found(const std::vector<VectorXd>& ph
     if (!predictions.contains(drawn)) predictions[drawn] = predict(node, at);
     const Prediction& prediction = predictions[drawn];
     const VectorXd mean = -mean_scale_ * (prediction.gain.transpose() * (coefficients_.transpose() * phi));
-    for (Eigen::Index j = 0; j < n_places; ++j) {
-      const double radius = std::sqrt(-2.0 * std::log(1.0 - uniform()));
-      const double normal = radius * std::cos(2.0 * std::numbers::pi * uniform());
-      errors[j].push_back(mean[j] + noise * std::sqrt(prediction.variance[j]) * normal);
-    }
+    for (Eigen::Index j = 0; j < n_places; ++j)
+      errors[j].push_back(mean[j] + noise * std::sqrt(prediction.variance[j]) * random.normal());
   }
   ModelDiscrepancy result{
       .amplitude = interval_of(amplitudes), .length = interval_of(lengths), .at = {at.begin(), at.end()}};
   for (const std::vector<double>& of_place : errors) {
-    const ModelDiscrepancy::Interval interval = interval_of(of_place);
+    const SampledInterval interval = interval_of(of_place);
     result.median.push_back(interval.median);
     result.lower.push_back(interval.lower);
     result.upper.push_back(interval.upper);

@@ -8,6 +8,8 @@
 // Both are summed over on a grid. Parameters that such a function could stand in for become uncertain (Brynjarsdottir,
 // O'Hagan, Inverse Problems 30 (2014) 114007): what the data cannot tell is not told.
 
+#include "solver/calibration/calibration_statistics.h"
+
 #include <Eigen/Core>
 
 #include <cstdint>
@@ -57,11 +59,8 @@ struct ResidualPlaces {
 
 /// What is found of a discrepancy, at places from the first to the last: 95 % of its posterior.
 struct ModelDiscrepancy {
-  struct Interval {
-    double median = 0.0, lower = 0.0, upper = 0.0;
-  };
-  Interval amplitude{};                            ///< s [that of the data]
-  Interval length{};                               ///< l [that of the places]
+  SampledInterval amplitude{};                     ///< s [that of the data]
+  SampledInterval length{};                        ///< l [that of the places]
   std::vector<double> at{};                        ///< places
   std::vector<double> median{}, lower{}, upper{};  ///< measured less computed [that of the data]
 };

@@ -28,9 +28,8 @@ std::optional<IsotropicElasticity> against_volume(const RegionModel& region) {
 }
 
 // Cells that are nearly incompressible, at any time of materials that relax, and have no pressure.
-std::optional<std::string> of_volume(const Mesh& mesh, const FractureModel& model) {
-  if (model.is_plane_stress() || model.is_finite_strain()) return std::nullopt;
-  const std::vector<Index> with = place_unknowns(mesh, elastic_body(model)).pressure_cells;  // in rising order
+std::optional<std::string> of_volume(const Mesh& mesh, const FractureModel& model, const Unknowns& unknowns) {
+  const std::vector<Index>& with = unknowns.pressure_cells;  // in rising order
   Index n_without = 0, worst = -1;
   double most = 0.0;
   for (Index c = 0; c < mesh.n_cells(); ++c) {
@@ -77,10 +76,8 @@ double refinement(const ConfinedLayer& layer, const IsotropicElasticity& of, dou
 
 // The coarse confined layer of the region in which more than half of the held surface errs by more than is bearable:
 // one with the median error.
-std::optional<std::string> of_confined_layers(const Mesh& mesh, const FractureModel& model) {
+std::optional<std::string> of_confined_layers(const Mesh& mesh, const Unknowns& unknowns) {
   constexpr double bearable = 0.03, least_ratio = 0.3;
-  if (model.is_plane_stress() || model.is_finite_strain()) return std::nullopt;
-  const Unknowns unknowns = place_unknowns(mesh, elastic_body(model));
   struct Found {
     ConfinedLayer layer;
     double error = 0.0;  // too soft
@@ -118,8 +115,15 @@ std::optional<std::string> of_confined_layers(const Mesh& mesh, const FractureMo
 
 std::vector<std::string> stiffness_warnings(const Mesh& mesh, const FractureModel& model) {
   std::vector<std::string> warnings;
-  for (const auto& warning : {of_volume(mesh, model), of_confined_layers(mesh, model), of_relaxation(mesh, model)})
+  const auto add = [&](const std::optional<std::string>& warning) {
     if (warning) warnings.push_back(*warning);
+  };
+  if (!model.is_plane_stress() && !model.is_finite_strain()) {
+    const Unknowns unknowns = place_unknowns(mesh, elastic_body(model));
+    add(of_volume(mesh, model, unknowns));
+    add(of_confined_layers(mesh, unknowns));
+  }
+  add(of_relaxation(mesh, model));
   return warnings;
 }
 

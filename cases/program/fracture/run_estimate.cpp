@@ -52,8 +52,7 @@ int estimated_runs_of_intervals(const CurveFitSettings& fit) {
   constexpr int by_end = 7, batches = 4;
   const int at_end = shares_differences(fit) ? 2 * (k - 1) : 0;  // about each end of a profile
   if (fit.intervals == Intervals::profile) return 2 * k * (by_end * (1 + each * (k - 1)) + at_end);
-  const bool has_posterior = fit.intervals == Intervals::posterior || fit.intervals == Intervals::discrepancy;
-  return has_posterior ? batches * (k + 1) * (k + 2) : 0;
+  return has_posterior(fit.intervals) ? batches * (k + 1) * (k + 2) : 0;
 }
 
 /// The first guess, and the points of a stage: bar_fit 7, glass_bead_fit 8.

@@ -131,8 +131,8 @@ class Fit:
 
     @cached_property
     def posterior(self) -> pandas.DataFrame | None:
-        """Samples of the posterior (`intervals = "posterior"` or `"discrepancy"` in [fit]): a row each, a column for each parameter that
-        the last stage estimates, in the units of `estimates`; None of a fit without it."""
+        """Samples of the posterior (`intervals = "posterior"` or `"discrepancy"` in [fit]): a row each, a column for
+        each parameter that the last stage estimates, in the units of `estimates`; None of a fit without it."""
         if "posterior" not in self.content:
             return None
         table = read_table(self.folder / self.content["posterior"]["file"])

@@ -181,17 +181,6 @@ void over_layers(const Mesh& mesh, const Unknowns& unknowns, const See& see) {
       }
 }
 
-// Whether half of the volume in which cubics are fitted is of cells so long that they err.
-bool are_mostly_long(const Mesh& mesh, const Unknowns& unknowns) {
-  constexpr double bearable = 0.03;
-  double all = 0.0, too_long = 0.0;
-  over_layers(mesh, unknowns, [&](const BendingCell& in, const BendingLayers& at, double) {
-    all += mesh.cell_volume[in.cell];
-    if (at.excess_of_cubics() > bearable) too_long += mesh.cell_volume[in.cell];
-  });
-  return too_long > 0.5 * all;
-}
-
 double error_of(const BendingLayers& at, BendBy by, bool are_long, double nu) {
   if (by == BendBy::lines) return at.error_of_lines(nu);
   return by == BendBy::cubics ? at.error_of_cubics(are_long) : at.error_of_one_ring(nu);
@@ -259,17 +248,23 @@ std::vector<char> bending_cells(const Mesh& mesh, const Unknowns& unknowns) {
 }
 
 std::optional<BendingError> largest_bending_error(const Mesh& mesh, const Unknowns& unknowns, BendBy by) {
-  std::optional<BendingError> largest;
-  const bool are_long = by == BendBy::cubics && are_mostly_long(mesh, unknowns);
+  constexpr double bearable = 0.03;  // of cubics in long cells, which err only where they are the rule
+  double all = 0.0, too_long = 0.0;  // volumes
+  std::array<std::optional<BendingError>, 2> largest;  // long cells are the exception; the rule
   over_layers(mesh, unknowns, [&](const BendingCell& in, const BendingLayers& at, double nu) {
+    all += mesh.cell_volume[in.cell];
+    if (at.excess_of_cubics() > bearable) too_long += mesh.cell_volume[in.cell];
     const bool is_several = by != BendBy::one_ring && has_lines(mesh, unknowns, in, LinesIn::space_and_plane);
     if (by == BendBy::cubics && !is_several) return;
     const BendBy by_now = is_several ? by : BendBy::one_ring;
-    const double error = error_of(at, by_now, are_long, nu);
-    if (!largest || std::abs(error) > std::abs(largest->error))
-      largest = {.cell = in.cell, .layers = at, .poisson_ratio = nu, .error = error, .by = by_now};
+    for (const bool are_long : {false, true}) {
+      std::optional<BendingError>& found = largest[are_long ? 1 : 0];
+      const double error = error_of(at, by_now, are_long, nu);
+      if (!found || std::abs(error) > std::abs(found->error))
+        found = {.cell = in.cell, .layers = at, .poisson_ratio = nu, .error = error, .by = by_now};
+    }
   });
-  return largest;
+  return largest[too_long > 0.5 * all ? 1 : 0];
 }
 
 }  // namespace pfdm

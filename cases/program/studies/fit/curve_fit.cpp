@@ -239,7 +239,7 @@ void CurveFit::add_other_intervals(const DoneStage& done, FitFindings& found) {
   const bool is_last = &done.stage == &job_.settings.stages.back();
   try {
     if (wanted == Intervals::profile) add_profiles(done, found);
-    if ((wanted == Intervals::posterior || wanted == Intervals::discrepancy) && is_last) add_posterior(done, found);
+    if (has_posterior(wanted) && is_last) add_posterior(done, found);
   } catch (const NoConvergence& error) {
     found.warnings.push_back(
         fmt::format("without {}: {}", wanted == Intervals::profile ? "profiles" : "a posterior", error.what()));

@@ -26,6 +26,9 @@ struct CurveFitStage {
 
 /// What a sound fit has beside the linear intervals; with a discrepancy of the model a questionable one as well.
 enum class Intervals { linear, profile, posterior, discrepancy };
+inline bool has_posterior(Intervals wanted) {
+  return wanted == Intervals::posterior || wanted == Intervals::discrepancy;
+}
 
 struct CurveFitSettings {
   std::vector<CurveFitParameter> parameters;

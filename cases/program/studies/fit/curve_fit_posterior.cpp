@@ -19,7 +19,6 @@ constexpr const char* samples_file = "fit_posterior.csv";
 constexpr const char* discrepancy_file = "fit_discrepancy.csv";
 constexpr double noticeable_error = 0.3;  // of the logarithm of the posterior
 constexpr double least_effective = 400.0;
-constexpr double lowest = 0.025, highest = 0.975;
 
 double mean_widening(const FitFindings& found) {
   double sum = 0.0;
@@ -33,9 +32,7 @@ CsvTable table_of(const Posterior& posterior, const std::vector<FittedParameter>
                                        name, posterior.samples.size(), posterior.effective));
   for (std::size_t k = 0; k < parameters.size(); ++k) {
     table.comments.push_back(fmt::format("{} [{}]", parameters[k].name, parameters[k].unit));
-    std::vector<double> values;
-    for (const std::vector<double>& sample : posterior.samples) values.push_back(sample[k]);
-    table.add(parameters[k].name, std::move(values));
+    table.add(parameters[k].name, posterior.of_parameter(k));
   }
   return table;
 }
@@ -91,23 +88,16 @@ CsvTable table_of(const ModelDiscrepancy& discrepancy, const std::string& name) 
   return table;
 }
 
-PosteriorInterval as_found(const ModelDiscrepancy::Interval& i) {
-  return {.median = i.median, .lower = i.lower, .upper = i.upper};
-}
-
 }  // namespace
 
 void CurveFit::add_posterior(const DoneStage& done, FitFindings& found) {
-  const bool may_lack = job_.settings.intervals == Intervals::discrepancy;
   PosteriorSettings how{.widening = mean_widening(found), .running = [this](int points) {
                           session_.log.say(fmt::format("  posterior: {} points about the estimates", points));
                         }};
-  if (may_lack) how.places = places_of(done.points, done.result.rms);
+  if (job_.settings.intervals == Intervals::discrepancy) how.places = places_of(done.points, done.result.rms);
   const Posterior sampled = posterior(done.problem, done.result, how);
   for (std::size_t k = 0; k < found.parameters.size(); ++k) {
-    PosteriorInterval interval{.median = sampled.quantile(k, 0.5),
-                               .lower = sampled.quantile(k, lowest),
-                               .upper = sampled.quantile(k, highest)};
+    SampledInterval interval = interval_of(sampled.of_parameter(k));
     hold_move(found.parameters[k], interval.lower, interval.upper);
     found.parameters[k].posterior = interval;
   }
@@ -119,9 +109,8 @@ void CurveFit::add_posterior(const DoneStage& done, FitFindings& found) {
                                       .law_files = add_law_bands(done.stage, sampled.samples, found.warnings)};
   if (const auto& discrepancy = sampled.discrepancy) {
     tables_[discrepancy_file] = table_of(*discrepancy, job_.name);
-    found.posterior->discrepancy = {.file = discrepancy_file,
-                                    .amplitude = as_found(discrepancy->amplitude),
-                                    .length = as_found(discrepancy->length)};
+    found.posterior->discrepancy = {
+        .file = discrepancy_file, .amplitude = discrepancy->amplitude, .length = discrepancy->length};
   }
   warn_of(sampled, found.warnings);
 }
@@ -159,9 +148,10 @@ std::vector<std::string> CurveFit::add_law_bands(const CurveFitStage& stage,
       std::vector<double> values;
       values.reserve(drawn.size());
       for (const std::vector<LawOfCase>& laws : drawn) values.push_back(laws[law].traction(x.back()));
-      lower.push_back(quantile(values, lowest));
-      median.push_back(quantile(values, 0.5));
-      upper.push_back(quantile(values, highest));
+      const SampledInterval interval = interval_of(values);
+      lower.push_back(interval.lower);
+      median.push_back(interval.median);
+      upper.push_back(interval.upper);
     }
     table.add("separation_m", std::move(x));
     table.add("traction_Pa", std::move(estimate));

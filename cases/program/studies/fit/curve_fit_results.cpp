@@ -100,7 +100,7 @@ std::string posterior_text(const CaseParameter& p, const FittedParameter& found)
 }
 
 void say_discrepancy(const DiscrepancyFindings& found, Log& log) {
-  const auto shown = [](const PosteriorInterval& i, const char* unit) {
+  const auto shown = [](const SampledInterval& i, const char* unit) {
     return fmt::format("{} ({} to {})", quantity_text(i.median, unit, 3), quantity_text(i.lower, unit, 3),
                        quantity_text(i.upper, unit, 3));
   };
