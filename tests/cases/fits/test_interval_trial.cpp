@@ -13,10 +13,10 @@ namespace {
 
 /// The trial is above a = 1.03, whose lower bound is near. y = a + b x at x = 0, 1, 2, 3, not all on a line; no answer
 /// where `fails`.
-FitProblem line(const std::function<bool(double a, double b)>& fails) {
+FitProblem line(const std::function<bool(double a, double b)>& fails, double least_b) {
   FitProblem problem;
   problem.parameters = {{.name = "a", .unit = "", .lower = 0.8, .upper = 10.0},
-                        {.name = "b", .unit = "", .lower = -10.0, .upper = 10.0}};
+                        {.name = "b", .unit = "", .lower = least_b, .upper = 10.0}};
   problem.residuals = [fails](std::span<const double> p) -> std::optional<std::vector<double>> {
     if (fails(p[0], p[1])) return std::nullopt;
     std::vector<double> r;
@@ -36,12 +36,12 @@ struct Trial {
   std::optional<std::string> doubt;
   std::vector<std::vector<double>> told;  ///< values after every step of the trial
 };
-Trial trial(const std::function<bool(double, double)>& fails) {
+Trial trial(const std::function<bool(double, double)>& fails, double least_b = -10.0) {
   FitSettings settings;
-  const FitResult found = fit(line([](double, double) { return false; }), settings);
+  const FitResult found = fit(line([](double, double) { return false; }, least_b), settings);
   Trial result;
   settings.iterated = [&](const FitIteration& at) { result.told.push_back(at.parameters); };
-  const FitProblem problem = line(fails);
+  const FitProblem problem = line(fails, least_b);
   std::ostringstream out, err;
   Log log(out, err, false, true);
   result.doubt = doubt_of_interval({problem, settings, found, names()}, 0, log);
@@ -57,6 +57,21 @@ TEST(IntervalTrial, HoldsForALine) {
     EXPECT_DOUBLE_EQ(values[0], all.told[0][0]);
     EXPECT_GT(std::abs(values[0] - 1.04), 0.1) << "three standard errors away";
   }
+}
+
+// a = 1.03 +- 0.148; with a three standard errors above it b is 0.84 in place of 1.03, and 0.87 with two and a half.
+TEST(IntervalTrial, GoesLessFarWhereAnotherMeetsItsBound) {
+  const Trial nearer = trial([](double, double) { return false; }, 0.86);
+  EXPECT_FALSE(nearer.doubt) << *nearer.doubt;
+  ASSERT_FALSE(nearer.told.empty());
+  EXPECT_NEAR(nearer.told[0][0], 1.03 + 2.5 * 0.1485, 1e-3);
+}
+
+// Residuals that grow because b is at its bound say nothing about a.
+TEST(IntervalTrial, IsNoneWhereAnotherMeetsItsBoundAtOnce) {
+  const Trial stopped = trial([](double, double) { return false; }, 0.95);
+  ASSERT_TRUE(stopped.doubt);
+  EXPECT_THAT(*stopped.doubt, ::testing::HasSubstr("do not tell material.b and experiment.a apart"));
 }
 
 // The linear model takes b below 0.9; with the estimate itself, 1.03, there is an answer.

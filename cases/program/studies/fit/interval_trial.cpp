@@ -11,14 +11,37 @@ namespace pfdm {
 namespace {
 
 constexpr double reach = 3.0;              // standard errors
-constexpr double least_reach = 2.0;        // likewise, within the bounds; less is no trial
+constexpr double least_reach = 2.0;        // likewise, within the bounds of all; less is no trial
 constexpr double share_that_holds = 0.25;  // of the expected growth of the sum of squares: half the stated width
 
-/// As far from the estimate as the bounds leave, to the side that leaves more.
-double place_of_trial(const FitParameter& p, const FitEstimate& estimate) {
-  const double above = std::min(estimate.value + reach * estimate.standard_error, p.upper),
-               below = std::max(estimate.value - reach * estimate.standard_error, p.lower);
-  return above - estimate.value >= estimate.value - below ? above : below;
+/// Whether, by the linear model, another parameter has met a bound with parameter k at this value. There the residuals
+/// grow because of the bound, not because of the data.
+bool meets_bounds_of_others(const DoneFit& done, std::size_t k, double value) {
+  const std::vector<double> others = others_by_linear_model(done.problem, done.result, k, value);
+  for (std::size_t j = 0; j < done.parameters.size(); ++j) {
+    if (j == k || done.result.estimates[j].at_bound) continue;
+    const FitParameter& p = done.problem.parameters[j];
+    const double there = others[j < k ? j : j - 1];
+    if (there <= p.lower || there >= p.upper) return true;
+  }
+  return false;
+}
+
+/// As far from the estimate as its own bounds leave, to the side that leaves more; nearer, or to the other side, where
+/// another parameter meets a bound first.
+double place_of_trial(const DoneFit& done, std::size_t k) {
+  const FitParameter& p = done.problem.parameters[k];
+  const FitEstimate& estimate = done.result.estimates[k];
+  const auto within = [&](double away) {
+    return std::clamp(estimate.value + away * estimate.standard_error, p.lower, p.upper);
+  };
+  const double side = within(reach) - estimate.value >= estimate.value - within(-reach) ? 1.0 : -1.0;
+  for (const double away : {reach, 0.5 * (reach + least_reach)})
+    for (const double there : {within(side * away), within(-side * away)})
+      if (std::abs(there - estimate.value) >= least_reach * estimate.standard_error &&
+          !meets_bounds_of_others(done, k, there))
+        return there;
+  return within(side * reach);
 }
 
 /// From where the linear model has them, or from the estimates. Nothing if the model converges at neither.
@@ -57,7 +80,7 @@ std::optional<std::string> doubt_of_interval(const DoneFit& done, std::size_t k,
   const FitEstimate& estimate = done.result.estimates[k];
   const double error = estimate.standard_error;
   if (done.parameters.size() < 2 || !(error > 0.0) || !std::isfinite(error)) return std::nullopt;
-  const double there = place_of_trial(done.problem.parameters[k], estimate);
+  const double there = place_of_trial(done, k);
   log.say(
       fmt::format("  the others anew with {} = {}", done.parameters[k].short_name(), done.parameters[k].shown(there)));
   FitSettings once = on_grid(from_one_start(done.settings));
@@ -74,7 +97,7 @@ std::optional<std::string> doubt_of_interval(const DoneFit& done, std::size_t k,
                freedom = n - static_cast<double>(done.parameters.size());
   const double variance = done.problem.noise_is_known ? 1.0 : done.result.sum_of_squares / freedom;
   const double away = std::abs(there - estimate.value) / error;
-  if (away >= least_reach &&
+  if (away >= least_reach && !meets_bounds_of_others(done, k, there) &&
       growth_of_squares(done.problem, done.result, k, there, *other) > share_that_holds * away * away * variance)
     return std::nullopt;
   return not_told_apart(done, k, there, *other);
