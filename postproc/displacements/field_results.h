@@ -1,9 +1,9 @@
 #pragma once
 // What a fit leaves of a field: its figures in fit.json, and its table.
 
-#include "postproc/curves/fit_json.h"
 #include "postproc/displacements/displacement_field.h"
 #include "postproc/files/csv_table.h"
+#include "postproc/fits/fit_json.h"
 
 #include <Eigen/Core>
 

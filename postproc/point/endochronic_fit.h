@@ -1,7 +1,7 @@
 #pragma once
 // What fit.json tells of the endochronic law alone. SI units, units in the names.
 
-#include "postproc/curves/fit_json.h"
+#include "postproc/fits/fit_json.h"
 #include "solver/point/endochronic_identification.h"
 
 #include <vector>

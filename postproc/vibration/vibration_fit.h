@@ -1,7 +1,7 @@
 #pragma once
 // What fit.json tells of the mass-material model alone. SI units, units in the names.
 
-#include "postproc/curves/fit_json.h"
+#include "postproc/fits/fit_json.h"
 #include "solver/vibration/diagnosis/identification_repeats.h"
 #include "solver/vibration/simulation/ogden_fit.h"
 

@@ -127,7 +127,7 @@ struct FractureRun::Parts {
     next.energy = outcome.energy;
     next.energy.fracture = staggered.surface_energy(next);
     next.energy.external_work =
-        state.energy.external_work + staggered.work(state, next.load, next.boundary_force, next.displacement);
+        state.energy.external_work + staggered.work(state, {next.load, next.boundary_force, next.displacement});
     next.energy.eigenstrain_work += state.energy.eigenstrain_work;
     for (const EnergyEntry& entry : energy_entries)
       if (entry.role == EnergyEntry::Role::dissipated) next.energy.*entry.value += state.energy.*entry.value;

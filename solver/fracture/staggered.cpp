@@ -137,48 +137,15 @@ double Staggered::reduced_energy(FractureState state) {
       state.displacement, MomentumOperator::Wanted::without_gradient, stiffness_.degradable_part(state));
   double energy = damage_.renewed_fracture_energy(state.damage);
   energy += parallel_sum(mesh_.n_cells(), [&](Index c) { return stiffness_.stored_energy(c, mechanics, state); });
-  return energy + potential_of_loads(state);
+  return energy + potential_of_loads(balance(), state);
 }
 
-double Staggered::potential_of_loads(const FractureState& state) const {
-  const std::vector<Vector> load = momentum_.balance().load_vector(state.load);
-  double potential = momentum_.balance().foundation_energy(state.displacement);
-  for (std::size_t i = 0; i < load.size(); ++i) potential -= load[i].dot(state.displacement[i]);
-  return potential;
-}
-
-double Staggered::work(const FractureState& from, double t, const std::vector<Vector>& force,
-                       const std::vector<Vector>& displacement) const {
-  double work = 0.0;
-  for (Index f = mesh_.n_interior_faces(); f < mesh_.n_faces(); ++f) {
-    const Index node = unknowns_.node_of_face[f];
-    if (node < 0) continue;
-    const std::size_t k = f - mesh_.n_interior_faces();
-    work += 0.5 * (from.boundary_force[k] + force[k]).dot(displacement[node] - from.displacement[node]);
-  }
-  if (const auto& body = unknowns_.loads.force)
-    work += parallel_sum(mesh_.n_cells(), [&](Index c) {
-      const Vector before = from.step > 0 ? body(mesh_, c, from.load) : Vector::Zero();
-      const Vector moved = displacement[c] - from.displacement[c];
-      return 0.5 * mesh_.cell_volume[c] * (before + body(mesh_, c, t)).dot(moved);
-    });
-  return work;
-}
-
-Staggered::FreeStrained Staggered::free_strained(const FractureState& state) {
+FreeStrained Staggered::free_strained(const FractureState& state) {
   if (!model_.has_eigenstrain()) return {};
   degrade(state);
   CellMechanics mechanics =
       momentum_.balance().mechanics(state.displacement, MomentumOperator::Wanted::without_gradient);
   return {stiffness_.eigenstrain_moments(mechanics, state, unknowns_.plane_normal), std::move(mechanics.eigenstrain)};
-}
-
-double Staggered::eigenstrain_work(const FreeStrained& from, const FreeStrained& to) const {
-  return parallel_sum(to.eigenstrain.size(), [&](Index c) {
-    if (from.eigenstrain.size() == 0) return -0.5 * to.moment[c].dot(to.eigenstrain[c]);
-    const Mandel grown = to.eigenstrain[c] - from.eigenstrain[c];
-    return -0.5 * (from.moment[c] + to.moment[c]).dot(grown);
-  });
 }
 
 void Staggered::hold(const FractureState& state) {
@@ -264,22 +231,10 @@ double Staggered::drive(const FractureState& start, FractureState& state, double
   });
 }
 
-ResidualShare Staggered::residual_share(const FractureState& state, const Energies& energies) {
+ResidualShare Staggered::residual_share(const FractureState& state, const Energies& energies) const {
   ResidualShare share{.elastic = energies.stored, .residual = energies.residual};
-  if (!holds_all(share.residual, share.elastic)) return share;
-  const std::vector<Vector> force = momentum_.balance().traction_forces(state.load);
-  // A part that prescribed displacements move, or hold, bears its body forces there. One that falls moves much farther.
-  constexpr double falls = 3.0;
-  double prescribed = 0.0;
-  for (std::size_t k = 0; k < unknowns_.face_of_node.size(); ++k) {
-    const Vector& u = state.displacement[unknowns_.n_cells + k];
-    prescribed = std::max(prescribed, (u - unknowns_.free_directions[k] * u).norm());
-  }
-  for (std::size_t i = 0; i < force.size(); ++i) {
-    const bool is_body_force = i < as_size(unknowns_.n_cells);
-    if (is_body_force && state.displacement[i].norm() <= falls * prescribed) continue;
-    share.traction_work += force[i].dot(state.displacement[i]);
-  }
+  if (holds_all(share.residual, share.elastic))
+    share.traction_work = work_of_free_loads(momentum_.balance(), unknowns_, state);
   return share;
 }
 

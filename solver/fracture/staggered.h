@@ -7,10 +7,11 @@
 #include "solver/fracture/cells/strength_drive.h"
 #include "solver/fracture/damage/damage_equation.h"
 #include "solver/fracture/damage/fatigue_cells.h"
-#include "solver/fracture/damage/residual_stiffness.h"
 #include "solver/fracture/equilibrium/cohesive_newton.h"
 #include "solver/fracture/equilibrium/coupled_newton.h"
+#include "solver/fracture/equilibrium/load_work.h"
 #include "solver/fracture/equilibrium/relaxation.h"
+#include "solver/fracture/equilibrium/step_outcome.h"
 #include "solver/fracture/model/fracture_model.h"
 #include "solver/fracture/model/iteration_report.h"
 #include "solver/fracture/model/state.h"
@@ -19,47 +20,9 @@
 
 #include <chrono>
 #include <functional>
-#include <limits>
 #include <string>
 
 namespace pfdm {
-
-/// Changes by the last iteration of a step.
-struct Restless {
-  Index cell = 0;               ///< the one whose damage changed most
-  double damage = 0.0;          ///< by this
-  double energy = 0.0;          ///< the energy, relative
-  double stiffness = 0.0;       ///< error of stiffnesses that follow the strain, in energy over what the body stores
-  std::vector<Index> moving{};  ///< broken cells whose cracks have opened or closed
-};
-
-struct StepOutcome {
-  bool converged = false;
-  bool failed = false;          ///< abandoned: no finite solution
-  bool stuck = false;           ///< and the reason is that the linear solver came no closer to balance
-  bool broke_too_much = false;  ///< abandoned: a limit on damage or energy was exceeded
-  double growth = 0.0;          ///< largest increase of d in a cell
-  double energy_release = 0.0;  ///< change of elastic energy by damage, over elastic and fracture energy before it
-  Index iterations = 0;
-  Index krylov_iterations = 0;
-  bool collapsed = false;  ///< abandoned: only the residual stiffness carries the loads
-  bool settled = false;    ///< all criteria hold but that of the momentum balance
-  bool circles = false;    ///< not converged: the iteration had a limit cycle
-  Restless rest{};
-  double residual = 0.0;         ///< of the momentum balance, relative
-  EnergyAccount energy{};        ///< elastic at the end, dissipated within the step
-  double starting_energy = 0.0;  ///< elastic, at the load of the step with the damage that it began with [J]
-  ResidualShare share{};         ///< of the residual stiffness
-};
-
-/// Limits of a step, and its duration.
-struct StepLimits {
-  double growth = std::numeric_limits<double>::infinity();          ///< of d in a cell
-  double energy_release = std::numeric_limits<double>::infinity();  ///< relative
-  double dissipation = std::numeric_limits<double>::infinity();     ///< [J]
-  double duration = 0.0;                                            ///< of the step [s]; for rate-dependent models
-  bool may_be_cut = false;  ///< a shorter step can be tried instead: a limit cycle ends the step at once
-};
 
 class Staggered {
  public:
@@ -97,10 +60,10 @@ class Staggered {
   double surface_energy(const FractureState& state);
   double renewed_surface_energy(const FractureState& state);
   CellField<double> surface_energy_density(const FractureState& state);
-  /// Work of the boundary forces and of the body forces between two states [J], by the trapezoidal rule, at the load
-  /// `t`.
-  double work(const FractureState& from, double t, const std::vector<Vector>& force,
-              const std::vector<Vector>& displacement) const;
+  /// Work of the loads from a state to where they have taken the body [J].
+  double work(const FractureState& from, const LoadedBody& to) const {
+    return work_of_loads(mesh_, unknowns_, from, to);
+  }
   /// Sets the degraded stiffness of the state in the momentum balance, within the step that has begun; or of a state
   /// that is held, after any step.
   void degrade(const FractureState& state);
@@ -141,19 +104,11 @@ class Staggered {
   void lower_toughness(FractureState& state);
   /// Updates the driving energy from the equilibrium. With `settles` the stiffness may follow the strain.
   Energies update_driving_energy(const FractureState& start, FractureState& state, bool settles);
-  double potential_of_loads(const FractureState& state) const;  // elastic foundations included [J]
   double drive(const FractureState& start, FractureState& state, double scale);
-  ResidualShare residual_share(const FractureState& state, const Energies& energies);
+  ResidualShare residual_share(const FractureState& state, const Energies& energies) const;
   /// Driving force of a strength model at the equilibrium of this state; empty without.
   StrengthDrive strength_drive_of(const FractureState& state);
-  /// Moments and eigenstrains of the cells, from which the work of eigenstrains follows.
-  struct FreeStrained {
-    CellField<Mandel> moment;       // CellStiffness::eigenstrain_moments [J]
-    CellField<Mandel> eigenstrain;  // [-]; empty: none
-  };
   FreeStrained free_strained(const FractureState& state);
-  /// Energy that eigenstrains supply from one state to the other [J].
-  double eigenstrain_work(const FreeStrained& from, const FreeStrained& to) const;
   /// Sets psi_plus_ and finite_.
   void find_driving_energy(const CellMechanics& mechanics, const FractureState& state);
   bool solve_damage(const FractureState& start, const FractureState& state, CellField<double>& d);

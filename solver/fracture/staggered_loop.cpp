@@ -137,7 +137,7 @@ struct Staggered::Loop {
     const double growth = state.load / start.load, stored = start.energy.stored();
     if (!finite) return growth * growth * stored;
     const double work =
-        s.work(start, state.load, s.momentum_.balance().boundary_forces(state.displacement), state.displacement);
+        s.work(start, {state.load, s.balance().boundary_forces(state.displacement), state.displacement});
     return energies.stored + growth * (stored + work - energies.stored);
   }
 
@@ -212,7 +212,8 @@ CoupledNewton::Moved Staggered::Loop::advance(CellField<double>& answer) {
   auto moved = CoupledNewton::Moved::no;
   if (newton) {
     const auto lap = s.clock_.lap("coupled_newton");
-    const double energy = energies.stored + s.damage_.fracture_energy(state.damage) + s.potential_of_loads(state);
+    const double energy =
+        energies.stored + s.damage_.fracture_energy(state.damage) + potential_of_loads(s.balance(), state);
     moved = newton->move({energy, lower}, state, answer);
     report.krylov_iterations += newton->krylov_iterations();
   }

@@ -58,9 +58,10 @@ set(rooms
     "postproc/hdf5: physics"
     "postproc/fields: physics mesh mesh/files solver solver/momentum solver/fracture postproc/files postproc/hdf5"
     "postproc/curves: physics solver/fracture solver/calibration postproc/files"
-    "postproc/displacements: physics mesh mesh/search postproc/files postproc/curves"
-    "postproc/point: physics solver/point postproc/files postproc/curves"
-    "postproc/vibration: physics solver/vibration solver/calibration postproc/files postproc/curves"
+    "postproc/fits: physics solver/calibration postproc/files postproc/curves"
+    "postproc/displacements: physics mesh mesh/search postproc/files postproc/curves postproc/fits"
+    "postproc/point: physics solver/point postproc/files postproc/curves postproc/fits"
+    "postproc/vibration: physics solver/vibration solver/calibration postproc/files postproc/curves postproc/fits"
     "postproc/cohesive: physics mesh mesh/search solver solver/fracture solver/calibration postproc/files postproc/fields postproc/curves"
     "postproc/exports/law: physics mesh solver/fracture postproc/files postproc/cohesive"
     "postproc/exports: physics mesh solver/fracture postproc/files postproc/cohesive postproc/exports/law"
@@ -76,10 +77,10 @@ set(rooms
     "cases/program/input: physics mesh mesh/files postproc/files"
     "cases/program/reference: physics cases/program/input"
     "cases/program/session/terminal: physics mesh solver postproc/files cases/program/input"
-    "cases/program/session: physics mesh solver postproc/files postproc/curves postproc/page postproc/browser
+    "cases/program/session: physics mesh solver postproc/files postproc/curves postproc/fits postproc/page postproc/browser
      cases/program/input cases/program/session/terminal"
     "cases/program/studies/runs: physics solver/calibration postproc/files postproc/curves postproc/displacements cases/program/input cases/program/session"
-    "cases/program/studies/fit: physics solver/calibration postproc/files postproc/curves postproc/displacements postproc/page postproc/browser
+    "cases/program/studies/fit: physics solver/calibration postproc/files postproc/curves postproc/fits postproc/displacements postproc/page postproc/browser
      cases/program/input cases/program/session cases/program/studies/runs"
     "cases/program/studies/sweep: physics solver/calibration postproc/files postproc/curves postproc/page postproc/browser
      cases/program/input cases/program/session cases/program/studies/runs"
@@ -89,34 +90,34 @@ set(rooms
      cases/program/session cases/program/studies/runs cases/program/studies/fit
      cases/program/studies/sensitivity cases/program/studies/sweep"
     "cases/program/chain: physics solver/calibration postproc/files postproc/page cases/program/input cases/program/session"
-    "cases/program/point: physics solver/point postproc/files postproc/curves postproc/point postproc/page cases/program/input
+    "cases/program/point: physics solver/point postproc/files postproc/curves postproc/fits postproc/point postproc/page cases/program/input
      cases/program/session cases/program/studies"
-    "cases/program/viscoelastic: physics solver/point postproc/files postproc/curves postproc/point postproc/page cases/program/input
+    "cases/program/viscoelastic: physics solver/point postproc/files postproc/curves postproc/fits postproc/point postproc/page cases/program/input
      cases/program/session cases/program/studies cases/program/point"
-    "cases/program/vibration: physics solver/vibration postproc/files postproc/curves postproc/vibration postproc/page postproc/records
+    "cases/program/vibration: physics solver/vibration postproc/files postproc/curves postproc/fits postproc/vibration postproc/page postproc/records
      cases/program/input cases/program/session cases/program/studies"
     "cases/program/fracture/body: physics mesh mesh/search mesh/surfaces mesh/generators mesh/files solver/momentum solver/fracture postproc/files
      cases/program/input"
     "cases/program/fracture/case: physics mesh mesh/files solver/heat solver/momentum solver/fracture postproc/reduction postproc/files postproc/fields
      postproc/curves postproc/displacements postproc/cohesive cases/program/input cases/program/session cases/program/studies cases/program/fracture/body"
     "cases/program/fracture/outcome: physics mesh solver/heat solver/momentum solver/fracture postproc/files postproc/fields
-     postproc/curves postproc/displacements postproc/cohesive postproc/exports postproc/page postproc/browser cases/program/input cases/program/session
+     postproc/curves postproc/fits postproc/displacements postproc/cohesive postproc/exports postproc/page postproc/browser cases/program/input cases/program/session
      cases/program/studies cases/program/fracture/body cases/program/fracture/case"
-    "cases/program/fracture/page: physics mesh solver/fracture postproc/files postproc/fields postproc/curves postproc/cohesive
+    "cases/program/fracture/page: physics mesh solver/fracture postproc/files postproc/fields postproc/curves postproc/fits postproc/cohesive
      postproc/page postproc/browser cases/program/input cases/program/session cases/program/studies cases/program/fracture/case
      cases/program/fracture/outcome"
     "cases/program/fracture/run: physics mesh solver/heat solver/fracture postproc/reduction postproc/files postproc/fields postproc/curves postproc/displacements
      postproc/cohesive postproc/page postproc/browser cases/program/input cases/program/session cases/program/studies cases/program/fracture/case
      cases/program/fracture/outcome cases/program/fracture/page"
     "cases/program/fracture: physics mesh mesh/surfaces mesh/generators mesh/files solver/heat solver/momentum solver/fracture postproc/reduction postproc/files
-     postproc/fields postproc/curves postproc/displacements postproc/cohesive postproc/exports postproc/page postproc/browser cases/program/input cases/program/session
+     postproc/fields postproc/curves postproc/fits postproc/displacements postproc/cohesive postproc/exports postproc/page postproc/browser cases/program/input cases/program/session
      cases/program/studies cases/program/fracture/body cases/program/fracture/case
      cases/program/fracture/outcome cases/program/fracture/page cases/program/fracture/run"
     "cases/program/specimens: physics solver/fracture postproc/files postproc/curves postproc/reduction cases/program/input
      cases/program/session cases/program/studies cases/program/fracture"
     "cases/cpp: physics mesh mesh/generators solver/fracture cases/program/fracture"
     "cases/program/plate: physics mesh solver solver/linear solver/scalar solver/momentum solver/dynamics solver/calibration
-     postproc/files postproc/fields postproc/curves postproc/vibration postproc/page cases/program/input cases/program/session
+     postproc/files postproc/fields postproc/curves postproc/fits postproc/vibration postproc/page cases/program/input cases/program/session
      cases/program/studies cases/program/fracture"
     "cases/program/homogenization: physics mesh solver/momentum solver/fracture solver/homogenization postproc/files
      postproc/fields postproc/curves postproc/page cases/program/input cases/program/session cases/program/studies cases/program/fracture"

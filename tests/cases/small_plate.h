@@ -1,7 +1,7 @@
 #pragma once
 // A small case of kind "plate".
 
-#include "postproc/curves/fit_json.h"
+#include "postproc/fits/fit_json.h"
 #include "tests/cases/temporary_case.h"
 
 #include <gtest/gtest.h>

@@ -2,7 +2,7 @@
 //
 //   correlated_coverage NUMBER
 
-#include "postproc/curves/fit_judgement.h"
+#include "postproc/fits/fit_judgement.h"
 #include "tests/solver/noisy_bar.h"
 
 #include <fmt/format.h>

@@ -1,8 +1,8 @@
 #include "cases/program/fracture/fracture_reduction.h"
 
 #include "physics/error.h"
-#include "postproc/curves/fit_json.h"
 #include "postproc/files/folder_lock.h"
+#include "postproc/fits/fit_json.h"
 #include "postproc/reduction/reduction_results.h"
 
 #include <fmt/format.h>

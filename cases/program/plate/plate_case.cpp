@@ -6,8 +6,8 @@
 #include "cases/program/input/config/heat_units.h"
 #include "cases/program/input/config/path_reader.h"
 #include "cases/program/input/fields/amount.h"
-#include "postproc/curves/fit_json.h"
 #include "postproc/files/csv_table.h"
+#include "postproc/fits/fit_json.h"
 #include "postproc/vibration/vibration_fit.h"
 
 #include <fmt/format.h>

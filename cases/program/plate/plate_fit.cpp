@@ -4,11 +4,11 @@
 #include "cases/program/session/fit_verdict.h"
 #include "cases/program/session/terminal/stopwatch.h"
 #include "physics/error.h"
-#include "postproc/curves/fit_judgement.h"
 #include "postproc/files/atomic_file.h"
 #include "postproc/files/csv_table.h"
 #include "postproc/files/folder_lock.h"
 #include "postproc/files/json.h"
+#include "postproc/fits/fit_judgement.h"
 
 #include <fmt/format.h>
 

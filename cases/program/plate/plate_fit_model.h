@@ -4,7 +4,7 @@
 #include "cases/program/plate/plate_fit_case.h"
 #include "cases/program/plate/plate_run.h"
 #include "cases/program/session/terminal/log.h"
-#include "postproc/curves/fit_judgement.h"
+#include "postproc/fits/fit_judgement.h"
 
 #include <span>
 #include <string>

@@ -3,8 +3,8 @@
 
 #include "cases/program/point/endochronic_fit_case.h"
 #include "cases/program/session/session.h"
-#include "postproc/curves/fit_json.h"
 #include "postproc/files/csv_table.h"
+#include "postproc/fits/fit_json.h"
 
 #include <string>
 #include <string_view>

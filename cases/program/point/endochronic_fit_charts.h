@@ -1,7 +1,7 @@
 #pragma once
 // The fit of a case of kind "endochronic" on its page.
 
-#include "postproc/curves/fit_json.h"
+#include "postproc/fits/fit_json.h"
 #include "postproc/page/report_page.h"
 
 #include <filesystem>

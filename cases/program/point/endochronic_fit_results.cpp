@@ -3,9 +3,9 @@
 #include "cases/program/input/laws/endochronic_reader.h"
 #include "cases/program/point/endochronic_comparison.h"
 #include "cases/program/studies/fit/material_tests.h"
-#include "postproc/curves/fit_judgement.h"
 #include "postproc/files/atomic_file.h"
 #include "postproc/files/csv_table.h"
+#include "postproc/fits/fit_judgement.h"
 #include "postproc/point/endochronic_fit.h"
 
 #include <fmt/format.h>

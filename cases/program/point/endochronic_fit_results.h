@@ -3,7 +3,7 @@
 
 #include "cases/program/input/case_files/case_file.h"
 #include "cases/program/point/endochronic_fit_case.h"
-#include "postproc/curves/fit_json.h"
+#include "postproc/fits/fit_json.h"
 
 namespace pfdm {
 

@@ -4,9 +4,9 @@
 #include "cases/program/point/plotted_strain.h"
 #include "cases/program/session/report_parts.h"
 #include "physics/error.h"
-#include "postproc/curves/fit_json.h"
 #include "postproc/curves/summary.h"
 #include "postproc/files/csv_table.h"
+#include "postproc/fits/fit_json.h"
 
 #include <fmt/format.h>
 

@@ -2,7 +2,7 @@
 // How every kind of fit says what is to be thought of it.
 
 #include "cases/program/session/session.h"
-#include "postproc/curves/fit_json.h"
+#include "postproc/fits/fit_json.h"
 
 #include <string>
 

@@ -3,9 +3,9 @@
 #include "cases/program/session/fit_verdict.h"
 #include "cases/program/session/terminal/external_program.h"
 #include "physics/error.h"
-#include "postproc/curves/fit_json.h"
 #include "postproc/curves/summary.h"
 #include "postproc/files/text_file.h"
+#include "postproc/fits/fit_json.h"
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>

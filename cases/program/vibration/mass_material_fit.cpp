@@ -6,9 +6,9 @@
 #include "cases/program/vibration/mass_material_jobs.h"
 #include "cases/program/vibration/mass_material_models.h"
 #include "cases/program/vibration/mass_material_ten_steps.h"
-#include "postproc/curves/fit_json.h"
 #include "postproc/files/atomic_file.h"
 #include "postproc/files/folder_lock.h"
+#include "postproc/fits/fit_json.h"
 #include "postproc/vibration/vibration_fit.h"
 #include "solver/vibration/identification/identification.h"
 

@@ -1,7 +1,7 @@
 #include "cases/program/vibration/mass_material_identified.h"
 
 #include "physics/error.h"
-#include "postproc/curves/fit_judgement.h"
+#include "postproc/fits/fit_judgement.h"
 #include "solver/vibration/diagnosis/identification_changes.h"
 #include "solver/vibration/diagnosis/identification_faults.h"
 #include "solver/vibration/identification/identification_evidence.h"

@@ -3,7 +3,7 @@
 
 #include "cases/program/session/terminal/log.h"
 #include "cases/program/vibration/mass_material_case.h"
-#include "postproc/curves/fit_json.h"
+#include "postproc/fits/fit_json.h"
 #include "postproc/vibration/vibration_fit.h"
 #include "solver/vibration/identification/identification.h"
 #include "solver/vibration/identification/identification_ten_steps.h"

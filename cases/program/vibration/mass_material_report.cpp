@@ -4,7 +4,7 @@
 #include "cases/program/session/report_parts.h"
 #include "cases/program/vibration/mass_material_models.h"
 #include "cases/program/vibration/vibration_charts.h"
-#include "postproc/curves/fit_json.h"
+#include "postproc/fits/fit_json.h"
 #include "postproc/vibration/vibration_fit.h"
 #include "solver/vibration/identification/identification.h"
 

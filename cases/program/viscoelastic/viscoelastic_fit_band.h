@@ -1,8 +1,8 @@
 #pragma once
 // What the intervals of the branches leave open of the moduli over frequency.
 
-#include "postproc/curves/fit_json.h"
 #include "postproc/files/csv_table.h"
+#include "postproc/fits/fit_json.h"
 #include "solver/point/viscoelastic_fit.h"
 
 #include <span>

@@ -3,10 +3,10 @@
 #include "cases/program/input/laws/prony_reader.h"
 #include "cases/program/studies/fit/material_tests.h"
 #include "cases/program/viscoelastic/viscoelastic_fit_band.h"
-#include "postproc/curves/fit_judgement.h"
 #include "postproc/files/atomic_file.h"
 #include "postproc/files/csv_table.h"
 #include "postproc/files/unit_key.h"
+#include "postproc/fits/fit_judgement.h"
 #include "postproc/point/viscoelastic_fit.h"
 
 #include <fmt/format.h>

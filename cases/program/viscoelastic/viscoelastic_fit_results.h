@@ -4,7 +4,7 @@
 #include "cases/program/input/case_files/case_file.h"
 #include "cases/program/point/endochronic_fit_results.h"
 #include "cases/program/viscoelastic/viscoelastic_fit_case.h"
-#include "postproc/curves/fit_json.h"
+#include "postproc/fits/fit_json.h"
 
 namespace pfdm {
 

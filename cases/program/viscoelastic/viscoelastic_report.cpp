@@ -4,9 +4,9 @@
 #include "cases/program/session/report_parts.h"
 #include "cases/program/viscoelastic/viscoelastic_fit_band.h"
 #include "physics/error.h"
-#include "postproc/curves/fit_json.h"
 #include "postproc/curves/summary.h"
 #include "postproc/files/csv_table.h"
+#include "postproc/fits/fit_json.h"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
 // Cases of kind plate from end to end: a small plate that is computed, and what is wrong with others said.
 
-#include "postproc/curves/fit_json.h"
 #include "postproc/files/csv_table.h"
+#include "postproc/fits/fit_json.h"
 #include "tests/cases/small_plate.h"
 #include "tests/cases/temporary_case.h"
 

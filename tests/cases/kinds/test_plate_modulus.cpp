@@ -1,7 +1,7 @@
 // Cases of kind plate whose modulus comes from a fit or a table.
 
-#include "postproc/curves/fit_json.h"
 #include "postproc/files/csv_table.h"
+#include "postproc/fits/fit_json.h"
 #include "postproc/vibration/vibration_fit.h"
 #include "tests/cases/small_plate.h"
 #include "tests/cases/temporary_case.h"

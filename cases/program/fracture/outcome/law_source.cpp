@@ -2,7 +2,7 @@
 
 #include "cases/program/fracture/outcome/fracture_files.h"
 #include "physics/error.h"
-#include "postproc/curves/fit_json.h"
+#include "postproc/fits/fit_json.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

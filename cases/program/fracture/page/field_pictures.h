@@ -1,7 +1,7 @@
 #pragma once
 // What pfdm report shows of displacement fields that a fit has met.
 
-#include "postproc/curves/fit_json.h"
+#include "postproc/fits/fit_json.h"
 #include "postproc/page/report_page.h"
 
 #include <filesystem>

@@ -1,7 +1,7 @@
 #pragma once
 // What pfdm report shows of a fit to force-displacement curves.
 
-#include "postproc/curves/fit_json.h"
+#include "postproc/fits/fit_json.h"
 #include "postproc/page/report_page.h"
 
 #include <filesystem>

@@ -1,7 +1,7 @@
 #pragma once
 // What a report shows of the posterior of a fit.
 
-#include "postproc/curves/fit_json.h"
+#include "postproc/fits/fit_json.h"
 #include "postproc/page/report_page.h"
 
 #include <filesystem>

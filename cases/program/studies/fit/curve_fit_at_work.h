@@ -6,9 +6,9 @@
 #include "cases/program/studies/fit/law_trial.h"
 #include "postproc/curves/curve_jumps.h"
 #include "postproc/curves/curve_misfit.h"
-#include "postproc/curves/fit_judgement.h"
 #include "postproc/displacements/field_residuals.h"
 #include "postproc/files/csv_table.h"
+#include "postproc/fits/fit_judgement.h"
 
 #include <map>
 #include <optional>

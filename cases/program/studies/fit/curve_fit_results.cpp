@@ -3,9 +3,9 @@
 #include "cases/program/session/fit_verdict.h"
 #include "physics/quantity_text.h"
 #include "postproc/curves/curve_misfit.h"
-#include "postproc/curves/fit_judgement.h"
 #include "postproc/files/atomic_file.h"
 #include "postproc/files/csv_table.h"
+#include "postproc/fits/fit_judgement.h"
 
 #include <fmt/format.h>
 

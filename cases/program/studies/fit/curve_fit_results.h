@@ -2,8 +2,8 @@
 // What a fit of a curve leaves: fit.json, fit_curve.csv, case.fitted.toml, and what is said of it.
 
 #include "cases/program/studies/fit/curve_fit.h"
-#include "postproc/curves/fit_json.h"
 #include "postproc/files/csv_table.h"
+#include "postproc/fits/fit_json.h"
 
 #include <map>
 #include <string>

@@ -1,9 +1,9 @@
-#include "postproc/curves/fit_json.h"
+#include "postproc/fits/fit_json.h"
 
-#include "postproc/curves/event_json.h"
 #include "postproc/files/atomic_file.h"
 #include "postproc/files/json.h"
 #include "postproc/files/unit_key.h"
+#include "postproc/fits/event_json.h"
 
 #include <fmt/format.h>
 
@@ -217,46 +217,6 @@ FitReport report_in(const Json& json) {
 
 OwnFindings own_findings(const FractureFindings& findings) {
   return {.kind = "fracture", .json = json_line(to_json(findings))};
-}
-
-FitFindings findings_of(const std::vector<FitParameter>& parameters, const FitResult& result) {
-  FitFindings found{.converged = result.converged,
-                    .message = result.message,
-                    .parameters = {},
-                    .correlation = result.correlation,
-                    .n_residuals = result.residuals.size(),
-                    .rms = result.rms,
-                    .noise_is_known = result.noise_is_known,
-                    .evaluations = result.evaluations,
-                    .warnings = result.warnings,
-                    .starts = result.starts,
-                    .path = result.path,
-                    .screened = result.screened};
-  for (std::size_t j = 0; j < parameters.size(); ++j) {
-    const FitParameter& p = parameters[j];
-    const FitEstimate& e = result.estimates[j];
-    found.parameters.push_back({.name = p.name,
-                                .unit = p.unit,
-                                .estimate = e.value,
-                                .standard_error = e.standard_error,
-                                .lower = e.lower_95,
-                                .upper = e.upper_95,
-                                .first_guess = p.first,
-                                .lower_bound = p.lower,
-                                .upper_bound = p.upper,
-                                .at_bound = e.at_bound,
-                                .log_scale = p.log_scale});
-  }
-  return found;
-}
-
-ExperimentMisfit experiment_misfit(std::string name, std::size_t n_data, const ExperimentMisfit::Absolute& absolute,
-                                   std::string curve) {
-  return {.name = std::move(name),
-          .n_data = n_data,
-          .relative = absolute.rms / absolute.rms_measured,
-          .absolute = absolute,
-          .curve = std::move(curve)};
 }
 
 void write_fit_json(const std::filesystem::path& file, const FitReport& report) {

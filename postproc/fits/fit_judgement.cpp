@@ -1,4 +1,4 @@
-#include "postproc/curves/fit_judgement.h"
+#include "postproc/fits/fit_judgement.h"
 
 #include "physics/quantity_text.h"
 #include "solver/calibration/calibration_statistics.h"

@@ -1,8 +1,8 @@
 #pragma once
 // Events in fit.json: what was measured of them, and what the fitted curve has.
 
-#include "postproc/curves/fit_json.h"
 #include "postproc/files/json.h"
+#include "postproc/fits/fit_findings.h"
 
 #include <vector>
 

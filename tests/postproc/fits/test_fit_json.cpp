@@ -1,5 +1,5 @@
 #include "physics/error.h"
-#include "postproc/curves/fit_json.h"
+#include "postproc/fits/fit_json.h"
 #include "postproc/point/endochronic_fit.h"
 #include "postproc/vibration/vibration_fit.h"
 #include "tests/postproc/temporary_folder.h"

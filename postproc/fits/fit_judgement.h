@@ -1,7 +1,7 @@
 #pragma once
 // What a fit found, and its verdict: intervals are widened, or withheld.
 
-#include "postproc/curves/fit_json.h"
+#include "postproc/fits/fit_findings.h"
 
 #include <optional>
 #include <string>

@@ -1,13 +1,8 @@
-#include "postproc/curves/event_json.h"
+#include "postproc/fits/event_json.h"
 
 #include <algorithm>
 
 namespace pfdm {
-
-double FittedEvent::figure(const std::string& wanted, double Figure::*value) const {
-  const auto found = std::ranges::find(figures, wanted, &Figure::name);
-  return found != figures.end() ? *found.*value : std::numeric_limits<double>::quiet_NaN();
-}
 
 nlohmann::ordered_json to_json(const std::vector<FittedEvent>& events) {
   auto list = nlohmann::ordered_json::array();

@@ -1,6 +1,6 @@
 // Intervals and verdicts of fits to data whose noise is correlated, by repetition.
 
-#include "postproc/curves/fit_judgement.h"
+#include "postproc/fits/fit_judgement.h"
 #include "tests/solver/noisy_bar.h"
 
 #include <gmock/gmock.h>
