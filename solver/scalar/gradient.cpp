@@ -18,31 +18,35 @@ class Neighbourhood {
  public:
   Neighbourhood(const Mesh& mesh, const GradientSettings& settings) : mesh_(mesh), settings_(settings) {}
 
-  std::vector<Index> around(Index cell, int n_rings) const {
-    std::vector<Index> cells{cell}, nodes;
+  /// Cells, then nodes on faces, by number.
+  std::vector<GradientSample> around(Index cell, int n_rings) const {
+    std::vector<GradientSample> cells{{cell}}, nodes;
     std::size_t ring_begin = 0;
     for (int ring = 0; ring < n_rings; ++ring) {
       const std::size_t ring_end = cells.size();
-      for (std::size_t i = ring_begin; i < ring_end; ++i) extend(cells[i], cells, nodes);
+      for (std::size_t i = ring_begin; i < ring_end; ++i) extend(cells[i].node, ring > 0, cells, nodes);
       ring_begin = ring_end;
     }
     cells.erase(cells.begin());
-    std::sort(cells.begin(), cells.end());
-    std::sort(nodes.begin(), nodes.end());
+    std::ranges::sort(cells, {}, &GradientSample::node);
+    std::ranges::sort(nodes, {}, &GradientSample::node);
     cells.insert(cells.end(), nodes.begin(), nodes.end());
     return cells;
   }
 
  private:
-  void extend(Index cell, std::vector<Index>& cells, std::vector<Index>& nodes) const {
+  void extend(Index cell, bool is_between, std::vector<GradientSample>& cells,
+              std::vector<GradientSample>& nodes) const {
+    const auto add = [&](Index node, std::vector<GradientSample>& list) {
+      if (std::ranges::find(list, node, &GradientSample::node) == list.end())
+        list.push_back({node, is_between ? cell : -1});
+    };
     for (const Index face : mesh_.faces_of_cell(cell)) {
       if (const Index node = node_beside(cell, face); node >= 0) {
-        if (std::find(nodes.begin(), nodes.end(), node) == nodes.end()) nodes.push_back(node);
+        add(node, nodes);
       } else if (mesh_.is_interior(face) && !is_cut(face)) {
         const Index other = mesh_.across(face, cell);
-        if (settings_.zone[other] == settings_.zone[cell] &&
-            std::find(cells.begin(), cells.end(), other) == cells.end())
-          cells.push_back(other);
+        if (settings_.zone[other] == settings_.zone[cell]) add(other, cells);
       }
     }
   }
@@ -72,6 +76,14 @@ std::vector<Vector> node_positions(const Mesh& mesh, const GradientSettings& set
   return position;
 }
 
+// Prisms about an axis, whose triangles are normal to it, are none.
+bool is_triangle_of_plane(const Mesh& mesh, Index cell, const Vector& normal) {
+  if (mesh.shape[cell] != CellShape::wedge || normal.isZero()) return false;
+  return std::ranges::any_of(mesh.faces_of_cell(cell), [&](Index f) {
+    return mesh.points_of_face(f).size() == 3 && std::abs(mesh.face_area[f].normalized().dot(normal)) > 0.9;
+  });
+}
+
 }  // namespace
 
 Gradient::Gradient(const Mesh& mesh, const GradientSettings& settings)
@@ -87,12 +99,13 @@ Gradient::Gradient(const Mesh& mesh, const GradientSettings& settings)
       offsets_.push_back(sample_.size());
       continue;
     }
-    const bool wide = mesh.shape[c] == CellShape::tetrahedron;
+    const bool wide = mesh.shape[c] == CellShape::tetrahedron ||
+                      (settings.wide_triangles && is_triangle_of_plane(mesh, c, plane_normal_));
     wide_[c] = wide;
     polyhedron_[c] = mesh.shape[c] == CellShape::polyhedron;
     constexpr int most_rings = 5;
     int n_rings = wide ? 2 : 1;
-    std::vector<Index> samples = neighbourhood.around(c, n_rings);
+    std::vector<GradientSample> samples = neighbourhood.around(c, n_rings);
     while (!has_full_rank(c, samples) && ++n_rings <= most_rings) samples = neighbourhood.around(c, n_rings);
     if (n_rings > most_rings && settings.zero_if_deficient) samples.clear();
     if (n_rings > most_rings && !settings.zero_if_deficient)
@@ -100,17 +113,20 @@ Gradient::Gradient(const Mesh& mesh, const GradientSettings& settings)
           fmt::format("the gradient of cell {} at ({:.4g}, {:.4g}, {:.4g}) m cannot be reconstructed: the cell has too "
                       "few neighbours of its own material; refine the mesh there",
                       c, node_[c][0], node_[c][1], node_[c][2]));
-    sample_.insert(sample_.end(), samples.begin(), samples.end());
+    for (const GradientSample& sample : samples) {
+      sample_.push_back(sample.node);
+      through_.push_back(sample.through);
+    }
     offsets_.push_back(sample_.size());
   }
   coefficient_.resize(sample_.size());
   parallel_for(n_cells(), [&](Index c) { build(c, nullptr); });
 }
 
-bool Gradient::has_full_rank(Index cell, const std::vector<Index>& samples) const {
+bool Gradient::has_full_rank(Index cell, const std::vector<GradientSample>& samples) const {
   Tensor moment = plane_normal_ * plane_normal_.transpose();
-  for (const Index s : samples) {
-    const Vector d = (node_[s] - node_[cell]).normalized();
+  for (const GradientSample& sample : samples) {
+    const Vector d = (node_[sample.node] - node_[cell]).normalized();
     moment += d * d.transpose();
   }
   constexpr double least = 1e-3;
@@ -120,8 +136,10 @@ bool Gradient::has_full_rank(Index cell, const std::vector<Index>& samples) cons
   return eigen.eigenvalues()[0] > least;
 }
 
-double Gradient::trust(Index cell, Index neighbour, const CellField<double>& g) const {
-  const double ratio = g[neighbour] / g[cell];
+double Gradient::trust(Index cell, std::size_t sample, const CellField<double>& g) const {
+  double least = sample_[sample] < n_cells() ? g[sample_[sample]] : g[cell];
+  if (through_[sample] >= 0) least = std::min(least, g[through_[sample]]);
+  const double ratio = least / g[cell];
   if (polyhedron_[cell]) return std::min(ratio, 1.0 / ratio);
   return std::min(1.0, ratio);
 }
@@ -138,7 +156,7 @@ void Gradient::build(Index cell, const CellField<double>* g) {
     if (!wide_[cell]) weight /= std::sqrt(length2);
     trace += weight * length2;
     constexpr double least = 1e-9;
-    if (j < n_cells()) weight *= (g != nullptr ? trust(cell, j, *g) : 1.0) + least;
+    if (j < n_cells() || through_[s] >= 0) weight *= (g != nullptr ? trust(cell, s, *g) : 1.0) + least;
     coefficient_[s] = weight * d;
     moment.noalias() += coefficient_[s] * d.transpose();
   }
@@ -157,9 +175,8 @@ void Gradient::update(const CellField<double>& g, double part) {
     bool flat = true;
     for (std::size_t s = begin(c); s < end(c); ++s) {
       const Index j = sample_[s];
-      if (j >= n_cells()) continue;
-      changed = changed || g_[j] != before[j];
-      flat = flat && trust(c, j, g_) == 1.0 && trust(c, j, before) == 1.0;
+      if (j < n_cells()) changed = changed || g_[j] != before[j];
+      flat = flat && trust(c, s, g_) == 1.0 && trust(c, s, before) == 1.0;
     }
     if (changed && !flat) build(c, &g_);
   });

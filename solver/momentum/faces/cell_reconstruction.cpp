@@ -11,6 +11,7 @@ CellReconstruction::CellReconstruction(const FaceSkeleton& skeleton)
                                 .node_of_face = skeleton.unknowns.node_of_face,
                                 .neighbour_node = skeleton.unknowns.neighbour_node,
                                 .plane_normal = skeleton.unknowns.plane_normal,
+                                .wide_triangles = true,
                                 .wanted = {}}),
       cubic_(skeleton.mesh, skeleton.unknowns, skeleton.sides_by_turn()),
       layers_(skeleton.mesh, skeleton.unknowns, skeleton.sides_by_turn(), skeleton.links,
