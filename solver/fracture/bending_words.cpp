@@ -19,10 +19,6 @@ constexpr double layers_for_it = 10.0;  // even ones of one material: (3 - 2/n)/
 
 // Why gradients are of one ring wherever layers bend; empty where lines of cells or cubics may serve.
 std::string reason(const FractureModel& model) {
-  const auto has = [&](BoundaryCondition::Kind kind) {
-    return std::ranges::any_of(model.boundary, [&](const BoundaryCondition& on) { return on.kind == kind; });
-  };
-  if (has(BoundaryCondition::Kind::axisymmetric)) return "a body about an axis";
   if (model.is_finite_strain()) return "";
   if (model.is_anisotropic()) return "elasticity that depends on the direction";
   if (!model.is_isotropic()) return "a split without secant moduli";
@@ -47,15 +43,19 @@ std::string words_on_thin(const BendingError& worst) {
 }
 
 // Words on the worst error, its reason and its remedy.
-std::string words_on(const BendingError& worst, const std::string& why) {
+std::string words_on(const BendingError& worst, const std::string& why, bool is_about_axis) {
   const BendingLayers& at = worst.layers;
   const double nu = worst.poisson_ratio;
   if (worst.by == BendBy::one_ring)
-    return fmt::format("too {} ({}; measured within {}). For {:.0f} %: {:.0f} layers of cells up to {} long ([mesh])",
-                       worst.error > 0.0 ? "high" : "low", why,
-                       at.stack.n_materials > 1 ? "a factor of two" : "a third", 100.0 * bearable,
-                       std::ceil(layers_for_it * at.n / at.stack.even_layers() - 0.01),
-                       length_words(at.stack.even_thickness * std::sqrt(bearable / (1.5 * (1.0 - nu))), 2));
+    return fmt::format(
+        "too {} ({}; {}). For {:.0f} %: {:.0f} layers of cells up to {} long ([mesh])",
+        worst.error > 0.0 ? "high" : "low", why,
+        is_about_axis ? fmt::format("{:.0f} % too low by the number of layers, {:.0f} % too high by long "
+                                    "cells as far as they bend along the radius",
+                                    100.0 * at.lack_of_one_ring(nu), 100.0 * at.excess_of_one_ring(nu))
+                      : fmt::format("measured within {}", at.stack.n_materials > 1 ? "a factor of two" : "a third"),
+        100.0 * bearable, std::ceil(layers_for_it * at.n / at.stack.even_layers() - 0.01),
+        length_words(at.stack.even_thickness * std::sqrt(bearable / (1.5 * (1.0 - nu))), 2));
   if (worst.error < 0.0) return words_on_thin(worst);
   if (worst.by == BendBy::cubics)
     return fmt::format(
@@ -147,11 +147,13 @@ std::string warn_of_polygons(const Mesh& mesh, const SlenderLayers& at) {
 std::optional<Warned> warn_of_hexahedra(const Mesh& mesh, const Unknowns& unknowns, BendBy by, const std::string& why) {
   const auto worst = largest_bending_error(mesh, unknowns, by);
   if (!worst || std::abs(worst->error) <= bearable) return std::nullopt;
+  const bool is_rough = unknowns.is_axisymmetric() && worst->by == BendBy::one_ring;
   const bool is_thin = worst->by != BendBy::one_ring && worst->error < 0.0;
-  return Warned{worst->error, words_on_layers(mesh, is_thin ? worst->layers.stack.thinnest : worst->cell, worst->layers,
-                                              "hexahedra") +
-                                  fmt::format("about {:.0f} % {}", 100.0 * std::abs(worst->error),
-                                              words_on(*worst, why.empty() ? "one cell across" : why))};
+  return Warned{
+      worst->error,
+      words_on_layers(mesh, is_thin ? worst->layers.stack.thinnest : worst->cell, worst->layers, "hexahedra") +
+          fmt::format("{} {:.0f} % {}", is_rough ? "up to" : "about", 100.0 * std::abs(worst->error),
+                      words_on(*worst, why.empty() ? "one cell across" : why, is_rough))};
 }
 
 std::optional<std::string> larger(const std::optional<Warned>& one, const std::optional<Warned>& other) {
@@ -163,7 +165,9 @@ std::optional<std::string> larger(const std::optional<Warned>& one, const std::o
 }  // namespace
 
 std::optional<std::string> bending_warning(const Mesh& mesh, const FractureModel& model) {
-  const bool is_plane = std::ranges::any_of(model.boundary, [](const auto& on) { return is_front_or_back(on); });
+  const bool is_plane = std::ranges::any_of(model.boundary, [](const auto& on) {
+    return is_front_or_back(on) && on.kind != BoundaryCondition::Kind::axisymmetric;
+  });
   const std::string why = reason(model);
   const Unknowns unknowns = place_unknowns(mesh, elastic_body(model));
   std::vector<SlenderLayers> slender = slender_layers(mesh, unknowns);

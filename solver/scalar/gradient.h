@@ -1,38 +1,20 @@
 #pragma once
 // Cell gradients by weighted least squares, exact for linear fields: grad u = sum_j (u_j - u_P) (x) c_j.
 //
-// Samples are neighbours of the same zone and the nodes on the cell's faces. Tetrahedra, and on request the triangles
-// of a plane mesh, use two rings of face neighbours with weight |d|^-2, all other cells one ring with |d|^-3: two rings
-// on flat curved prisms give wrong stresses. With one ring tetrahedra do not converge, and elasticity on flat triangles
-// is indefinite. The weight of a neighbour is multiplied by min(1, g_j/g_P), so that a broken cell does not bridge into
-// a sound one; g_j is that of the cell between, where this is less, so that nothing is sampled across a crack. For a
-// polyhedron the factor is min(g_P/g_j, g_j/g_P), small for
+// Samples are neighbours of the same zone and the nodes on the cell's faces. Tetrahedra use two rings of face neighbours
+// with weight |d|^-2, as do on request the triangles of plane meshes, and flat ones in plane layers of prisms. All other
+// cells use one ring with |d|^-3: two rings on flat curved prisms give wrong stresses. With one ring tetrahedra do not
+// converge, and elasticity on flat triangles is indefinite. The weight of a neighbour is multiplied by min(1, g_j/g_P),
+// so that a broken cell does not bridge into a sound one; in prisms g_j is that of the cell between, where this is less,
+// so that nothing is sampled across a crack. For a polyhedron the factor is min(g_P/g_j, g_j/g_P), small for
 // any neighbour of very different damage: its jump term, weaker than the averaged tractions (momentum.h), does not
 // cancel a wrong gradient of the broken cell either.
 
-#include "mesh/mesh.h"
+#include "solver/scalar/gradient_samples.h"
 
 #include <vector>
 
 namespace pfdm {
-
-struct GradientSettings {
-  CellField<Index> zone;                 ///< cells of the same zone sample each other
-  FaceField<Index> node_of_face;         ///< sample nodes on faces (-1: none), numbered from n_cells on; or empty
-  FaceField<Index> neighbour_node{};     ///< of the neighbour's side, where the sides have nodes of their own; likewise
-  FaceField<char> cut{};                 ///< nonzero: the cells beside the face do not sample each other; or empty
-  CellField<Vector> shift{};             ///< of the point of a cell's value from the cell's centre [m]; or empty
-  Vector plane_normal = Vector::Zero();  ///< direction in which the gradient is zero, if any
-  bool wide_triangles = false;           ///< two rings for prisms whose triangles are normal to plane_normal
-  std::vector<char> wanted;              ///< nonzero for cells whose gradient is needed; empty: all
-  bool zero_if_deficient = false;        ///< too few neighbours: gradient zero; otherwise InputError
-};
-
-/// A value that a gradient is made of.
-struct GradientSample {
-  Index node = 0;
-  Index through = -1;  ///< the cell of the ring before, if that is not the cell itself
-};
 
 class Gradient {
  public:
@@ -72,7 +54,6 @@ class Gradient {
   std::size_t end(Index cell) const { return offsets_[cell + 1]; }
   void build(Index cell, const CellField<double>* g);
   double trust(Index cell, std::size_t sample, const CellField<double>& g) const;
-  bool has_full_rank(Index cell, const std::vector<GradientSample>& samples) const;
 
   std::vector<std::size_t> offsets_;
   std::vector<Index> sample_;

@@ -21,11 +21,22 @@ double BendingLayers::excess_of_stack(double nu) const {
   return 1.5 * (1.0 - nu) * length * length / (stack.even_thickness * stack.even_thickness);
 }
 
-double BendingLayers::error_of_one_ring(double nu) const {
-  const double x = excess_of_stack(nu), even = stack.even_layers();
+double BendingLayers::excess_of_one_ring(double nu) const {
+  const double x = excess_of_stack(nu);
+  return x / (1.0 + 0.13 * x * std::sqrt(x));
+}
+
+double BendingLayers::lack_of_one_ring(double nu) const {
+  const double even = stack.even_layers();
   const double poisson = even > 1.5 ? 0.6 * poisson_share(nu) * (2.0 - 3.0 / even) : 0.0;
   const double left_out = std::max(1.0, 3.0 - 2.0 / even) - poisson;
-  return x / (1.0 + 0.13 * x * std::sqrt(x)) - left_out * (stack.layers - stack.lone) - stack.lone;
+  return left_out * (stack.layers - stack.lone) + stack.lone;
+}
+
+double BendingLayers::error_of_one_ring(double nu, bool is_about_axis) const {
+  const double excess = excess_of_one_ring(nu), lack = lack_of_one_ring(nu);
+  if (!is_about_axis) return excess - lack;
+  return excess > lack ? excess : -lack;
 }
 
 double BendingLayers::excess_of_lines(double nu) const {

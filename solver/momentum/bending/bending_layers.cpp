@@ -181,9 +181,9 @@ void over_layers(const Mesh& mesh, const Unknowns& unknowns, const See& see) {
       }
 }
 
-double error_of(const BendingLayers& at, BendBy by, bool are_long, double nu) {
+double error_of(const BendingLayers& at, BendBy by, bool are_long, bool is_about_axis, double nu) {
   if (by == BendBy::lines) return at.error_of_lines(nu);
-  return by == BendBy::cubics ? at.error_of_cubics(are_long) : at.error_of_one_ring(nu);
+  return by == BendBy::cubics ? at.error_of_cubics(are_long) : at.error_of_one_ring(nu, is_about_axis);
 }
 
 }  // namespace
@@ -226,13 +226,13 @@ Index cells_through(const Mesh& mesh, const Unknowns& unknowns, Index cell, cons
 }
 
 bool has_lines(const Mesh& mesh, const Unknowns& unknowns, const BendingCell& in, LinesIn where) {
-  if (unknowns.is_axisymmetric() || (where == LinesIn::space && !unknowns.plane_normal.isZero())) return false;
+  if (where == LinesIn::space && !unknowns.plane_normal.isZero()) return false;
   return count_through(mesh, in.cell, in.across, [&](Index, Index face) { return unknowns.is_split(face); }) >= 2;
 }
 
 std::vector<BendingCell> cells_with_lines(const Mesh& mesh, const Unknowns& unknowns, LinesIn where) {
   std::vector<BendingCell> cells;
-  if (unknowns.is_axisymmetric() || (where == LinesIn::space && !unknowns.plane_normal.isZero())) return cells;
+  if (where == LinesIn::space && !unknowns.plane_normal.isZero()) return cells;
   over_layers(mesh, unknowns, [&](const BendingCell& in, const BendingLayers& at, double nu) {
     if (at.is_wrong(nu) && has_lines(mesh, unknowns, in, where)) cells.push_back(in);
   });
@@ -259,7 +259,7 @@ std::optional<BendingError> largest_bending_error(const Mesh& mesh, const Unknow
     const BendBy by_now = is_several ? by : BendBy::one_ring;
     for (const bool are_long : {false, true}) {
       std::optional<BendingError>& found = largest[are_long ? 1 : 0];
-      const double error = error_of(at, by_now, are_long, nu);
+      const double error = error_of(at, by_now, are_long, unknowns.is_axisymmetric(), nu);
       if (!found || std::abs(error) > std::abs(found->error))
         found = {.cell = in.cell, .layers = at, .poisson_ratio = nu, .error = error, .by = by_now};
     }

@@ -33,9 +33,13 @@ struct BendingLayers {
   //
   /// The excess of the stack's even thickness, x = 1.5 (1 - nu) (length/even_thickness)^2.
   double excess_of_stack(double nu) const;
-  /// Gradients of one ring: x/(1 + 0.13 x^1.5) - (3 - 2/n - 0.6 f (2 - 3/n)) (layers - lone) - lone, n = layers^(-1/2)
-  /// and f = nu^2/((1 - nu)(1 - 2 nu)) at nu up to 0.45, which is how Poisson's effect across stiffens layers.
-  double error_of_one_ring(double nu) const;
+  /// Gradients of one ring, too much by long cells: x/(1 + 0.13 x^1.5).
+  double excess_of_one_ring(double nu) const;
+  /// Likewise, too little: (3 - 2/n - 0.6 f (2 - 3/n)) (layers - lone) + lone, n = layers^(-1/2) and f = nu^2/((1 - nu)
+  /// (1 - 2 nu)) at nu up to 0.45, which is how Poisson's effect across stiffens layers.
+  double lack_of_one_ring(double nu) const;
+  /// The difference of both; about an axis the larger of them, as only the radial part of the bending has the excess.
+  double error_of_one_ring(double nu, bool is_about_axis) const;
   /// Gradients along lines of cells that are longer than the thickness: 0.05 (length/thickness - 1)^1.3 sqrt((1 -
   /// nu)/(1 - 2 nu)), nu at most 0.45, too much in cantilevers of an even number of cells, too little with an odd one.
   double excess_of_lines(double nu) const;
@@ -98,7 +102,7 @@ std::vector<BendingCell> cells_of_layers(const Mesh& mesh, const Unknowns& unkno
 /// Cells of one elastic zone in the line of a cell through two opposite faces, split faces being ends.
 Index cells_through(const Mesh& mesh, const Unknowns& unknowns, Index cell, const std::array<Index, 2>& faces);
 
-/// Meshes in which layers that bend have gradients along lines of cells (layer_gradients.h); none about an axis.
+/// Meshes in which layers that bend have gradients along lines of cells (layer_gradients.h).
 enum class LinesIn { space, space_and_plane };
 
 /// Whether a cell has them: with at least two cells across, which may be of several zones that are bonded.

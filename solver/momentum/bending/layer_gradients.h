@@ -1,6 +1,6 @@
 #pragma once
 // Gradients of bodies in layers of hexahedra that bend, of third order along the lines of cells through opposite faces:
-// of vibrating ones, others in space, and at finite strain also in plane meshes.
+// of vibrating ones, others in space, about an axis, and at finite strain also in plane meshes.
 //
 // With the gradients of one ring (momentum.h) n layers leave out the bending within each of them, (3 - 2/n)/n^2 of the
 // stiffness, less in torsion. The jump term of the faces across the span adds 1.5 (1 - nu) (h_x/h)^2 in cells of length

@@ -17,9 +17,11 @@ CellReconstruction::CellReconstruction(const FaceSkeleton& skeleton)
       layers_(skeleton.mesh, skeleton.unknowns, skeleton.sides_by_turn(), skeleton.links,
               cells_with_lines(skeleton.mesh, skeleton.unknowns, LinesIn::space)),
       pressure_(skeleton.mesh, skeleton.unknowns) {
-  // Layers that strain by themselves exchange their forces near their ends, within what may be one cell. Fits to smooth
-  // fields lose up to a tenth of the moment there, the slopes along lines do not.
-  if (!skeleton.unknowns.plane_normal.isZero() && skeleton.unknowns.loads.eigenstrain) take_lines_alone();
+  // Cubics do not know the hoop strain. And layers that strain by themselves exchange their forces near their ends,
+  // within what may be one cell: fits to smooth fields lose up to a tenth of the moment there, slopes along lines do
+  // not.
+  const Unknowns& unknowns = skeleton.unknowns;
+  if (unknowns.is_axisymmetric() || (!unknowns.plane_normal.isZero() && unknowns.loads.eigenstrain)) take_lines_alone();
 }
 
 void CellReconstruction::relax_flat_cells() {
