@@ -7,17 +7,15 @@
 #include <limits>
 #include <map>
 
+#include "mesh/generators/expected_cells.h"
 #include "mesh/patch_rules.h"
 #include "physics/error.h"
 #include "physics/quantity_text.h"
-#include "physics/system/machine_limits.h"
 
 namespace pfdm {
 namespace {
 
 using Position = std::array<Index, 3>;  // of a node in the grid
-
-constexpr double bytes_of_a_cell = 5.7e3;  // of a run, by its three faces; what `check` says
 
 class BoxGrid {
  public:
@@ -27,9 +25,7 @@ class BoxGrid {
       nodes_[a] = axis_nodes(settings.origin[a], settings.axes[a], fmt::format("the box along {}", "xyz"[a]));
       cells *= static_cast<double>(nodes_[a].size());
     }
-    if (cells * 24.0 > std::numeric_limits<Index>::max())
-      throw InputError(fmt::format("the box would have about {:.3g} cells, too many to number", cells));
-    require_memory(bytes_of_a_cell * cells, fmt::format("the box of about {:.3g} cells", cells));
+    require_memory_for(cells, "the box");
   }
 
   Index n_cells(std::size_t axis) const { return count_of(nodes_[axis]) - 1; }

@@ -7,6 +7,7 @@
 #include <limits>
 #include <utility>
 
+#include "mesh/generators/expected_cells.h"
 #include "mesh/generators/particles_in_box_checks.h"
 #include "mesh/generators/tetgen_wrapper.h"
 #include "mesh/patch_rules.h"
@@ -90,6 +91,7 @@ class Builder {
   }
 
   Mesh build() {
+    require_memory_for(expected_tetrahedra(size_, settings_.lower, settings_.upper), "the box");
     for (std::size_t i = 0; i < settings_.particles.size(); ++i) add_particle_surfaces(i);
     add_surface("the box", box_surface(box_nodes()));
     check_surfaces(surfaces_);

@@ -1,6 +1,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "mesh/generators/expected_cells.h"
 #include "mesh/generators/particles_in_box.h"
 #include "mesh/quality.h"
 #include "mesh/surfaces/size_field.h"
@@ -237,6 +238,18 @@ TEST(ParticlesInBox, SizesThatAreNotPositiveAreRefused) {
   EXPECT_THAT(message([](auto& s) { s.boundary_size = -1.0; }), HasSubstr("box's surface"));
   EXPECT_THAT(message([](auto& s) { s.particles.clear(); }), HasSubstr("size_far"));
   EXPECT_THAT(message([](auto& s) { s.particles[0].centre[0] = NAN; }), HasSubstr("particle 1"));
+}
+
+// TetGen would take minutes before it ran out of memory.
+TEST(ParticlesInBox, WithMoreCellsThanMemoryAreRefusedAtOnce) {
+  ParticlesInBoxSettings settings = one_bead(2, 0);
+  settings.size_far = 60.0 * micro;
+  const double cells = static_cast<double>(make_particles_in_box(settings).n_cells());
+  const SizeField even({}, 1.0, settings.size_far);
+  EXPECT_NEAR(cells / expected_tetrahedra(even, settings.lower, settings.upper), 1.15, 0.35);
+  settings.size_far = 0.2 * micro;
+  EXPECT_THAT([&] { make_particles_in_box(settings); },
+              ::testing::ThrowsMessage<InputError>(AllOf(HasSubstr("the box"), HasSubstr("cells"))));
 }
 
 }  // namespace
