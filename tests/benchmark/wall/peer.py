@@ -240,10 +240,22 @@ class Peer:
                 fem.petsc.assemble_vector(self.F, self.moved)
             self.F.array[self.fixed] = 0.0
             self.solve_linear()
-            self.u.x.array[:] += self.move.x.array - self.change.x.array
-            if self.linear or self.unbalance() < EQUILIBRIUM:
+            if self.advance(self.move.x.array - self.change.x.array) < EQUILIBRIUM:
                 return
         raise RuntimeError("momentum: 50 iterations of Newton's method do not converge")
+
+    def advance(self, step):
+        """Adds a step of Newton's method, halved up to six times where the forces on the free nodes grow; what they are then."""
+        if self.linear:
+            self.u.x.array[:] += step
+            return 0.0
+        start, before = self.u.x.array.copy(), self.unbalance()
+        for halvings in range(7):
+            self.u.x.array[:] = start + step / 2**halvings
+            now = self.unbalance()
+            if now < before or np.abs(self.move.x.array).max() > 0:
+                break
+        return now
 
     def unbalance(self):
         """Forces on the free nodes over those on all."""
