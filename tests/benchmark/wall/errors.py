@@ -13,7 +13,7 @@ def aitken(values):
 
 def limits(by_run):
     """By (code, variant) the limit of its meshes, at the case's steps and tolerance; and the reference, the mean of the two codes'
-    limits (without variants)."""
+    limits (without variants), with half their difference."""
     found = {}
     for key in {(run.code, run.variant) for run in by_run}:
         meshes = sorted((run.mesh, value) for run, value in by_run.items()
@@ -22,4 +22,6 @@ def limits(by_run):
         if values:
             found[key] = aitken(values[-3:]) if len(values) >= 3 else values[-1]
     plain = [limit for (_, variant), limit in found.items() if not variant]
-    return found, sum(plain) / len(plain) if plain else float("nan")
+    if not plain:
+        return found, float("nan"), float("nan")
+    return found, (max(plain) + min(plain)) / 2, (max(plain) - min(plain)) / 2

@@ -35,6 +35,8 @@ def draw(rows, path):
             points = largest_errors(rows, name, key)
             if points:
                 panel.loglog([100 * e for e, _ in points], [s for _, s in points], color=colour, marker=marker, label=label)
+        doubt = max(float(row["doubt"]) for row in rows if row["problem"] == name)
+        panel.axvline(100 * doubt, color="0.5", linestyle=":", label="half the difference of the limits")
         panel.set_title(name, fontsize=9)
         panel.set_xlabel("largest error [%]")
         panel.grid(alpha=0.3, which="both")

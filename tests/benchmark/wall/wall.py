@@ -23,7 +23,7 @@ from problems import PROBLEMS, VARIANTS
 
 HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parents[2]
-COLUMNS = ("problem code variant mesh steps tolerance cells unknowns iterations cpu_s MB end measure value limit reference error "
+COLUMNS = ("problem code variant mesh steps tolerance cells unknowns iterations cpu_s MB end measure value limit reference doubt error "
            "machine version date").split()
 
 
@@ -69,8 +69,9 @@ def rows_of(name):
     whole = {run: runs.columns_of(run) for run, result in done if result["end"] == "whole"}
     values = {m: {run: f(c) for run, c in whole.items()} for m, (_, _, f) in problem.measures.items()}
     for measure, by_run in values.items():
-        limits, reference = errors.limits(by_run)
-        reference = problem.exact.get(measure, reference)
+        limits, reference, doubt = errors.limits(by_run)
+        if measure in problem.exact:
+            reference, doubt = problem.exact[measure], 0.0
         for run, result in done:
             value = by_run.get(run)
             yield {"problem": name, "code": run.code, "variant": run.variant, "mesh": f"{run.mesh:g}", "steps": f"{run.steps:g}",
@@ -79,7 +80,7 @@ def rows_of(name):
                    **{k: result.get(k, "") for k in ("cells", "unknowns", "iterations", "end", "machine", "version", "date")},
                    "value": "" if value is None else f"{value:.7g}",
                    "limit": f"{limits[run.code, run.variant]:.7g}" if (run.code, run.variant) in limits else "",
-                   "reference": f"{reference:.7g}", "error": "" if value is None else f"{value / reference - 1:.3e}"}
+                   "reference": f"{reference:.7g}", "doubt": f"{doubt / abs(reference):.2e}", "error": "" if value is None else f"{value / reference - 1:.3e}"}
 
 
 def main():
