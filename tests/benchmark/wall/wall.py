@@ -61,11 +61,20 @@ def make_runs(name, options):
               f"{result.get('iterations', 0)} iterations", flush=True)
 
 
+def check_grids(name, done):
+    """Both codes have to have the same cells of the same mesh."""
+    cells = {}
+    for run, result in done:
+        if "cells" in result and cells.setdefault(run.mesh, result["cells"]) != result["cells"]:
+            raise SystemExit(f"{name}, mesh {run.mesh:g}: {cells[run.mesh]} cells with one code, {result['cells']} with {run.code}")
+
+
 def rows_of(name):
     """A row for each run and measure."""
     problem = PROBLEMS[name]
     done = [(run, runs.result_of(run)) for run in runs.runs_of(name, problem)]
     done = [(run, result) for run, result in done if result]
+    check_grids(name, done)
     whole = {run: runs.columns_of(run) for run, result in done if result["end"] == "whole"}
     values = {m: {run: f(c) for run, c in whole.items()} for m, (_, _, f) in problem.measures.items()}
     for measure, by_run in values.items():
