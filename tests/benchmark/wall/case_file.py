@@ -81,6 +81,10 @@ class Case:
     def cut(self, slit):
         """Doubles the points of a slit normal to y for the cells above it; those on its edge inside the body stay single."""
         box = corners(slit)[:, : self.dimension]
+        for axis, lines in enumerate(self.axes):
+            for end in box[:, axis]:
+                if np.abs(lines - end).min() > 1e-7 * self.scale:
+                    raise ValueError(f"slit {slit['name']}: {end} m is no line of the grid along {'xyz'[axis]}")
         on = self.inside(self.points, slit)
         x = self.points[:, 0]
         for end in box[:, 0]:  # the front, where it is not the body's side
