@@ -23,12 +23,10 @@ from mpi4py import MPI
 from petsc4py import PETSc
 
 import case_file
+import peer_energy
+from peer_mesh import make_mesh, rigid_motions
 
 COMPILATION = {"cffi_extra_compile_args": ["-O3", "-march=native", "-ffast-math"], "cffi_libraries": ["m"]}
-# Six tetrahedra of a box around the diagonal from corner 0 to 7, by corners of a tensor product: the same cut in every box, so that
-# they fit together.
-TETRAHEDRA = [[0, 1, 3, 7], [0, 1, 5, 7], [0, 2, 3, 7], [0, 2, 6, 7], [0, 4, 5, 7], [0, 4, 6, 7]]
-TRIANGLES = [[[0, 1, 3], [0, 2, 3]], [[0, 1, 2], [1, 2, 3]]]
 LAGGED = 4  # conjugate gradient iterations with an old preconditioner after which a new one is made
 EQUILIBRIUM = 1e-6
 FACTORS = {"ksp_type": "cg", "pc_type": "cholesky", "pc_factor_mat_solver_type": "mumps"}
@@ -58,35 +56,6 @@ def cpu():
     return usage.ru_utime + usage.ru_stime
 
 
-def make_mesh(case, kind):
-    n, cells = case.dimension, case.cells
-    if kind == "simplices" and n == 2:
-        cells = np.where(case.parity[:, None, None] == 0, cells[:, TRIANGLES[0]], cells[:, TRIANGLES[1]]).reshape(-1, 3)
-    elif kind == "simplices":
-        cells = cells[:, TETRAHEDRA].reshape(-1, 4)
-    name = {"simplices": {2: "triangle", 3: "tetrahedron"}, "boxes": {2: "quadrilateral", 3: "hexahedron"}}[kind][n]
-    return mesh.create_mesh(MPI.COMM_SELF, cells.astype(np.int64), case.points, ufl.Mesh(ufl.VectorElement("Lagrange", name, 1)))
-
-
-def rigid_motions(space, n):
-    x, vectors = space.tabulate_dof_coordinates(), []
-    rotations = [(0, 1)] if n == 2 else [(0, 1), (1, 2), (2, 0)]
-    for k in range(n + len(rotations)):
-        motion = fem.Function(space)
-        values = motion.x.array.reshape(-1, n)
-        if k < n:
-            values[:, k] = 1.0
-        else:
-            a, b = rotations[k - n]
-            values[:, a], values[:, b] = -x[:, b], x[:, a]
-        vectors.append(motion.vector.copy())
-    for i, v in enumerate(vectors):
-        for w in vectors[:i]:
-            v.axpy(-w.dot(v), w)
-        v.normalize()
-    return PETSc.NullSpace().create(vectors=vectors, comm=MPI.COMM_SELF)
-
-
 def zero(vector):
     with vector.localForm() as local:
         local.set(0)
@@ -108,35 +77,6 @@ class Peer:
         self.make_momentum(options.solver or ("mumps" if case.flat else "gamg"))
         self.make_damage()
 
-    def strain(self, w):
-        e = ufl.sym(ufl.grad(w))
-        if self.case.dimension == 3:
-            return e
-        return ufl.as_tensor([[e[0, 0], e[0, 1], 0], [e[1, 0], e[1, 1], 0], [0, 0, 0]])
-
-    def rubber(self, lame, mu):
-        """Neo-Hookean energy in plane strain; below J = 0.1 ln J goes on as its expansion to second order, as in pfdm."""
-        F = ufl.Identity(2) + ufl.grad(self.u)
-        J = ufl.det(F)
-        low = (J - 0.1) / 0.1
-        log = ufl.conditional(J > 0.1, ufl.ln(ufl.max_value(J, 0.1)), np.log(0.1) + low - low**2 / 2)
-        return mu / 2 * (ufl.inner(F, F) - 2) - mu * log + lame / 2 * (J - 1) ** 2
-
-    def energies(self, E, nu):
-        """Part of the strain energy that drives damage, and the rest [J/m^3]; in the plane plane strain."""
-        lame, mu = E * nu / ((1 + nu) * (1 - 2 * nu)), E / (2 * (1 + nu))
-        if self.case.material.get("law") == "neo_hookean":
-            return self.rubber(lame, mu), 0.0
-        e = self.strain(self.u)
-        volume = ufl.tr(e)
-        if self.case.fracture["split"] == "none":
-            return lame / 2 * volume**2 + mu * ufl.inner(e, e), 0.0
-        if self.case.fracture["split"] != "volumetric_deviatoric":
-            raise ValueError(f"split {self.case.fracture['split']}: the peer has none and volumetric_deviatoric")
-        bulk, shape = lame + 2 * mu / 3, e - volume / 3 * ufl.Identity(3)
-        opens = ufl.conditional(volume > 0, 1.0, 0.0)
-        return opens * bulk / 2 * volume**2 + mu * ufl.inner(shape, shape), (1 - opens) * bulk / 2 * volume**2
-
     def make_forms(self, order):
         quantity, material, fracture = case_file.quantity, self.case.material, self.case.fracture
         ell, Gc, k = quantity(fracture["length"]), quantity(material["toughness"]), fracture["residual_stiffness"]
@@ -144,7 +84,8 @@ class Peer:
             h = min(np.diff(a).min() for a in self.case.axes)
             Gc /= 1 + {"AT1": 3 / 8, "AT2": 1 / 2}[fracture["model"]] * h / ell
         dx = ufl.dx(domain=self.body, metadata={"quadrature_degree": order})
-        opening, closing = self.energies(quantity(material["young_modulus"]), material["poisson_ratio"])
+        moduli = quantity(material["young_modulus"]), material["poisson_ratio"]
+        opening, closing = peer_energy.parts(self.u, self.case.dimension, material.get("law"), fracture["split"], *moduli)
         elastic = self.case.thickness * (((1 - k) * (1 - self.d) ** 2 + k) * opening + closing) * dx
         slope = ell * ufl.dot(ufl.grad(self.d), ufl.grad(self.d))
         surface = self.case.thickness * {"AT1": 3 * Gc / 8 * (self.d / ell + slope), "AT2": Gc / 2 * (self.d**2 / ell + slope)}[fracture["model"]] * dx
@@ -262,7 +203,7 @@ class Peer:
         every = self.forces().array
         free = every.copy()
         free[self.fixed] = 0.0
-        return np.linalg.norm(free) / np.linalg.norm(every)
+        return np.linalg.norm(free) / max(np.linalg.norm(every), 1e-300)
 
     def solve_linear(self):
         """With factors, or the multigrid, of an earlier matrix as long as that takes few iterations."""
