@@ -44,6 +44,7 @@ def draw(rows, path):
         row[0].set_ylabel("CPU seconds")
     for panel in panels.flat[len(names):]:
         panel.axis("off")
-    panels[0][0].legend(frameon=False, fontsize=8)
-    picture.savefig(path, dpi=130)
+    shown = {label: line for panel in panels.flat for line, label in zip(*panel.get_legend_handles_labels())}
+    picture.legend(shown.values(), shown.keys(), loc="upper center", bbox_to_anchor=(0.5, 0.0), ncol=3, frameon=False, fontsize=9)
+    picture.savefig(path, dpi=130, bbox_inches="tight")
     print(path)
