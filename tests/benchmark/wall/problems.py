@@ -82,7 +82,7 @@ PROBLEMS = {
          "peak": ("peak force", "N", peak),
          "total_end": ("total energy at 80 um", "J", total(0.8)),
          "surface_end": ("surface energy at 80 um", "J", surface(0.8))},
-        meshes=(0.5, 1, 2, 4),
+        meshes=(0.5, 1, 2),
     ),
 }
 
