@@ -1,6 +1,7 @@
 #pragma once
 // The kinds of case that this program knows.
 
+#include "cases/program/input/config/kind_names.h"
 #include "cases/program/session/case_kind.h"
 
 #include <span>
@@ -9,10 +10,6 @@ namespace pfdm {
 
 /// The table of the executable: all kinds (kinds.cpp), or the one of pfdm_fracture (fracture_kind_only.cpp).
 std::span<const CaseKind> case_kinds();
-
-/// The names of all kinds that there are, in the full program's order.
-inline constexpr std::string_view all_kind_names[] = {"chain",         "endochronic", "fracture",    "homogenize",
-                                                      "mass_material", "plate",       "viscoelastic"};
 
 /// False for a kind that there is and that this executable was built without.
 bool knows_kind(const CaseFile& file);

@@ -1,8 +1,10 @@
 #include "cases/program/input/config/key.h"
 
 #include "cases/program/input/config/field_keys.h"
+#include "cases/program/input/config/kind_names.h"
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 namespace pfdm {
@@ -39,8 +41,8 @@ const KeyTable& expression_keys() {
 
 std::vector<Key> head_keys() {
   using namespace keys;
-  return {{"kind", choice("kind of case", {"chain", "endochronic", "fracture", "homogenize", "mass_material", "plate"}),
-           "", "Kind of the case, which decides what it computes and which keys there are."},
+  return {{"kind", choice("kind of case", {std::begin(all_kind_names), std::end(all_kind_names)}), "",
+           "Kind of the case, which decides what it computes and which keys there are."},
           {"title", text("line"), "", "Title of the case on one line, for lists, pages and results."}};
 }
 
