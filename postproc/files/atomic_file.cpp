@@ -77,11 +77,23 @@ void move_file(const fs::path& from, const fs::path& to) {
   ::unlink(from.c_str());
 }
 
+bool is_partial_name(std::string_view name) {
+  if (name == waiting_folder) return true;
+  if (!name.starts_with('.') || !name.ends_with(partial)) return false;
+  name.remove_suffix(partial.size());
+  for (const char before : {'_', '.'}) {  // attempt, process
+    const std::size_t end = name.find_last_not_of("0123456789");
+    if (end == 0 || end == std::string_view::npos || end + 1 == name.size() || name[end] != before) return false;
+    name = name.substr(0, end);
+  }
+  return name.size() > 1;
+}
+
 void remove_leftovers(const fs::path& folder) {
   std::error_code ignored;
   for (const auto& entry : fs::directory_iterator(folder, ignored)) {
     const std::string name = entry.path().filename().string();
-    if (name.starts_with('.') && name.ends_with(partial)) fs::remove_all(entry.path(), ignored);
+    if (is_partial_name(name)) fs::remove_all(entry.path(), ignored);
   }
 }
 

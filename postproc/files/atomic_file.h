@@ -21,7 +21,13 @@ void replace_file(const std::filesystem::path& path,
 /// Renames a file, whole or not at all, also onto another disk. Throws ComputationError that names `to`.
 void move_file(const std::filesystem::path& from, const std::filesystem::path& to);
 
-/// Removes what killed runs left in a folder: all that is called .*.partial. Nobody else may be writing there.
+/// Where a run writes while earlier results stay (new_results.h): within their folder.
+inline constexpr std::string_view waiting_folder = ".new.partial";
+
+/// Whether a temporary file of this program may be called so: .NAME.PROCESS_ATTEMPT.partial or the waiting folder.
+bool is_partial_name(std::string_view name);
+
+/// Removes what killed runs left in a folder: all with such names. Nobody else may be writing there.
 void remove_leftovers(const std::filesystem::path& folder);
 
 /// Makes a folder and those above it; throws ComputationError where that cannot be.

@@ -9,8 +9,10 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <fstream>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <system_error>
 
 namespace pfdm {
@@ -37,14 +39,39 @@ void make(const std::filesystem::path& folder) {
   }
 }
 
-/// Whether a run, a fit, a mesh or an export has written there, also one of a version that did not mark its folders, or
-/// the folder is that of a case.
-bool holds_results(const fs::path& folder) {
-  constexpr const char* signs[] = {owned_folder_mark, "run.log",         "summary.json",  "fit.json",
-                                   "chain.json",      "comparison.json", "compared.json", "sweep.csv",
-                                   "mesh.vtu",        "checkpoint.bin",  "case.toml",     "cohesive_law",
-                                   "report",          "history.csv",     "analysis",      "force_displacement.csv"};
-  return std::ranges::any_of(signs, [&](const char* sign) { return fs::exists(folder / sign); });
+/// The first bytes of a file; empty for what is no file that may be read.
+std::string head_of(const fs::path& path) {
+  std::string head(4096, '\0');
+  std::ifstream in;
+  if (fs::is_regular_file(path)) in.open(path, std::ios::binary);
+  in.read(head.data(), static_cast<std::streamsize>(head.size()));
+  head.resize(static_cast<std::size_t>(in.gcount()));
+  return head;
+}
+
+/// A log begins with the time and the program's name.
+bool begins_a_log(std::string_view head) {
+  constexpr std::string_view time = "0000-00-00 00:00:00";
+  if (head.size() < time.size() || !head.substr(time.size()).starts_with(" pfdm ")) return false;
+  return std::ranges::equal(head.substr(0, time.size()), time,
+                            [](char c, char due) { return due == '0' ? c >= '0' && c <= '9' : c == due; });
+}
+
+/// Whether a file's content, not its name alone, tells that this program has written it.
+bool is_result(const fs::path& path) {
+  const fs::path name = path.filename();
+  if (name == "checkpoint.bin") return head_of(path).starts_with("PFDMCKPT");
+  if (name == "case.toml") return head_of(path).starts_with("# Kept by pfdm ");
+  if (name.extension() == ".log") return begins_a_log(head_of(path));
+  return name.extension() == ".json" && head_of(path).find("\"case_hash\": \"") != std::string::npos;
+}
+
+/// Whether the folder is marked, or holds a file of results, also of a version that did not mark its folders.
+bool is_ours(const fs::path& folder) {
+  if (fs::is_regular_file(folder / owned_folder_mark)) return true;
+  for (const fs::path& place : {folder, folder / "analysis", folder / "cohesive_law"})
+    if (fs::is_directory(place) && std::ranges::any_of(fs::directory_iterator(place), is_result)) return true;
+  return false;
 }
 
 /// Links to folders within, whose targets a new run would empty, and folders of others.
@@ -58,11 +85,10 @@ void require_ours(const fs::path& folder) {
                       entry.path().string()));
     other = std::min(other.value_or("\xff"), entry.path().filename().string());
   }
-  if (other && !holds_results(folder))
+  if (other && !is_ours(folder))
     throw InputError(
         fmt::format("{} holds files that are not of pfdm, as \"{}\": choose another folder with --output; an empty "
-                    "file {} in it says "
-                    "that files may be replaced there",
+                    "file {} in it says that files may be replaced there",
                     folder.string(), *other, owned_folder_mark));
 }
 

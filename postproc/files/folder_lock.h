@@ -21,9 +21,10 @@ struct FolderInUse : InputError {
 class FolderLock {
  public:
   /// Makes the folder if need be, marks it as one whose files may be replaced, and removes temporary files that killed
-  /// runs left in it. Throws FolderInUse if another run holds it, InputError if it holds files but none of this
-  /// program, or a link to a folder, ComputationError that names --output if it cannot be made, opened or written to.
-  /// Where the file system knows no locks there is none. A killed run holds nothing.
+  /// runs left in it. Throws FolderInUse if another run holds it, InputError if it holds files but neither
+  /// the mark nor results, which their content tells (logs, JSON with a case_hash, checkpoints), or a link to a folder,
+  /// ComputationError that names --output if it cannot be made, opened or written to. Where the file system knows no
+  /// locks there is none. A killed run holds nothing.
   explicit FolderLock(const std::filesystem::path& folder);
   ~FolderLock();
   FolderLock(const FolderLock&) = delete;

@@ -71,7 +71,12 @@ TEST(KeptCase, IsACaseLikeAnyOtherElsewhere) {
 
 TEST(KeptCase, LeavesACaseAloneWhoseFolderTakesTheResults) {
   const TemporaryCase directory(bar_case());
-  ASSERT_EQ(run({"run", directory.path().string(), "--output", directory.path().string()}).status, 0);
+  const std::vector<std::string> words{"run", directory.path().string(), "--output", directory.path().string()};
+  directory.write("force_displacement.csv", "measured");
+  EXPECT_EQ(run(words).status, 2);
+  EXPECT_EQ(content_of(directory.path() / "force_displacement.csv"), "measured");
+  directory.write(".pfdm", "");
+  ASSERT_EQ(run(words).status, 0);
   EXPECT_EQ(content_of(directory.path() / "case.toml"), bar_case());
 }
 

@@ -25,14 +25,22 @@ TEST(AtomicFile, holds_what_was_written_and_leaves_nothing_else) {
 
 TEST(AtomicFile, removes_what_a_killed_run_left_behind) {
   const TemporaryFolder folder;
-  put(folder / ".a.txt.partial", "half of something longer than the new content");
-  put(folder / ".a.txt.17_0.partial", "half of something");
-  put(folder / "b.partial", "somebody's file");
+  put(folder / ".a.txt.17_0.partial", "half of something longer than the new content");
+  put(folder / "..hidden.4194304_12.partial", "half of something");
   write_file(folder / "a.txt", "whole");
   remove_leftovers(folder.path());
   EXPECT_EQ(content_of(folder / "a.txt"), "whole");
-  EXPECT_EQ(content_of(folder / "b.partial"), "somebody's file");
-  EXPECT_EQ(folder.n_entries(), 2u);
+  EXPECT_EQ(folder.n_entries(), 1u);
+}
+
+TEST(AtomicFile, leaves_partial_files_of_others_alone) {
+  const TemporaryFolder folder;
+  const char* others[] = {"b.partial",      ".X.partial",          ".a.txt.partial", ".17_0.partial",
+                          ".a.17.partial",  ".a._0.partial",       ".a.17_.partial", ".a.17_0x.partial",
+                          ".a17_0.partial", ".a.17_0.partial.bak", "..17_0.partial"};
+  for (const char* name : others) put(folder / name, "somebody's file");
+  remove_leftovers(folder.path());
+  for (const char* name : others) EXPECT_EQ(content_of(folder / name), "somebody's file") << name;
 }
 
 // Links that somebody else laid where the temporary file would be.

@@ -6,6 +6,8 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <utility>
+
 namespace pfdm::test::this_file {
 namespace {
 
@@ -51,10 +53,45 @@ TEST(FolderLock, leaves_folders_of_others_alone) {
 }
 
 TEST(FolderLock, knows_results_of_earlier_versions) {
+  const std::pair<const char*, const char*> results[] = {
+      {"summary.json", "{\n  \"case\": \"bar\",\n  \"case_hash\": \"9e75f4c6587ac82b\"\n}\n"},
+      {"fit.json", "{\n  \"format\": 1,\n  \"case_hash\": \"9e75f4c6587ac82b\"\n}\n"},
+      {"run.log", "2026-11-29 13:54:41 pfdm 0.2.0 (x86-64-v3), case bar; 1 thread\n"},
+      {"checkpoint.bin", "PFDMCKPT\x01"},
+      {"case.toml", "# Kept by pfdm 0.2.0: the case \"b\" of \"..\" as it ran. Paths start here.\n"}};
+  for (const auto& [name, content] : results) {
+    const TemporaryFolder folder;
+    put(folder / name, content);
+    EXPECT_NO_THROW(FolderLock lock(folder.path())) << name;
+    EXPECT_TRUE(std::filesystem::exists(folder / owned_folder_mark)) << name;
+  }
+}
+
+// Names that results have, too, with contents of others.
+TEST(FolderLock, takes_no_name_for_results) {
+  const std::pair<const char*, const char*> files[] = {{"summary.json", "{\"mean\": 3}"},
+                                                       {"fit.json", "[1, 2]"},
+                                                       {"run.log", "2026-11-29 13:54:41 solver 3.1\n"},
+                                                       {"checkpoint.bin", "PK"},
+                                                       {"case.toml", "kind = \"fracture\"\n"},
+                                                       {"force_displacement.csv", "displacement,force\n0,0\n"},
+                                                       {"history.csv", "time,value\n"},
+                                                       {"sweep.csv", "a,b\n"},
+                                                       {"mesh.vtu", "<VTKFile>"},
+                                                       {"compared.json", "{}"}};
+  for (const auto& [name, content] : files) {
+    const TemporaryFolder folder;
+    put(folder / name, content);
+    put(folder / ".X.partial", "mine");
+    EXPECT_THAT(message_of<InputError>([&] { FolderLock lock(folder.path()); }),
+                HasSubstr("holds files that are not of pfdm"))
+        << name;
+    EXPECT_EQ(content_of(folder / name), content);
+    EXPECT_EQ(folder.n_entries(), 2u) << name;
+  }
   const TemporaryFolder folder;
-  put(folder / "summary.json", "{}");
-  EXPECT_NO_THROW(FolderLock lock(folder.path()));
-  EXPECT_TRUE(std::filesystem::exists(folder / owned_folder_mark));
+  std::filesystem::create_directory(folder / "report");
+  EXPECT_THROW(FolderLock lock(folder.path()), InputError);
 }
 
 TEST(FolderLock, refuses_links_whose_targets_a_run_would_empty) {

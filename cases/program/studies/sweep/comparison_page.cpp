@@ -115,7 +115,7 @@ void tell_of_runs(BrowserPage& page, const std::vector<ComparedRun>& runs) {
 bool is_as_good_as_empty(const fs::path& folder) {
   return std::ranges::all_of(fs::directory_iterator(folder), [](const fs::directory_entry& entry) {
     const std::string name = entry.path().filename().string();
-    return name == owned_folder_mark || (name.starts_with('.') && name.ends_with(".partial"));
+    return name == owned_folder_mark || is_partial_name(name);
   });
 }
 
