@@ -9,6 +9,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+#include <concepts>
 #include <cstdint>
 #include <cstring>
 #include <string_view>
@@ -93,6 +95,41 @@ class Reader {
   const std::filesystem::path& path_;
 };
 
+/// Whether all that is not whole is finite.
+class FiniteCheck {
+ public:
+  /// `unknown` may be infinite.
+  explicit FiniteCheck(const double& unknown) : unknown_(&unknown) {}
+
+  void operator()(const double& value) {
+    is_finite_ = is_finite_ && (std::isfinite(value) || (&value == unknown_ && value > 0.0));
+  }
+  void operator()(const Vector& value) { is_finite_ = is_finite_ && value.allFinite(); }
+  void operator()(const InterfaceHistory& h) {
+    for (const double value :
+         {h.reached, h.reached_in_shear, h.dissipated, h.rubbed, h.viscous, h.overstress, h.opening})
+      (*this)(value);
+    for (const Vector& q : h.branch) (*this)(q);
+    (*this)(h.slip);
+    (*this)(h.shear);
+  }
+  template <std::integral T>
+  void operator()(T) {}
+  template <class T>
+  void operator()(const std::vector<T>& list) {
+    for (const T& value : list) (*this)(value);
+  }
+  template <class T, class Place>
+  void operator()(const Field<T, Place>& field) {
+    (*this)(field.values());
+  }
+  bool is_finite() const { return is_finite_; }
+
+ private:
+  const double* unknown_;
+  bool is_finite_ = true;
+};
+
 // The one list of what is in a state, for both directions; it does not compile any more when the state gets a member.
 template <class Archive, class State>
 void archive_state(Archive& archive, State& state) {
@@ -164,6 +201,12 @@ FractureState read_checkpoint(const std::filesystem::path& path, const std::stri
   archive_state(reader, state);
   reader.expect_end();
   return state;
+}
+
+bool is_finite(const FractureState& state) {
+  FiniteCheck check(state.heat.cycle_change);
+  archive_state(check, state);
+  return check.is_finite();
 }
 
 }  // namespace pfdm

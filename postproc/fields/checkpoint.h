@@ -16,4 +16,8 @@ void write_checkpoint(const std::filesystem::path& path, const FractureState& st
 /// version's format; OtherCase if it belongs to another case.
 FractureState read_checkpoint(const std::filesystem::path& path, const std::string& case_hash);
 
+/// Whether all numbers of a state are finite; how the heat of cycles changes (HeatState) is infinite before there are
+/// two.
+bool is_finite(const FractureState& state);
+
 }  // namespace pfdm

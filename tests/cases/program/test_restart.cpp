@@ -1,5 +1,6 @@
 // A run that stops goes on to the same results: curves, frames and energy release rates of a bar that breaks.
 
+#include "postproc/fields/checkpoint.h"
 #include "postproc/fields/pvd.h"
 #include "postproc/files/csv_table.h"
 #include "tests/cases/temporary_case.h"
@@ -9,6 +10,8 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <functional>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -179,6 +182,38 @@ TEST(Program, RefusesToGoOnWithAnotherCase) {
   EXPECT_EQ(outcome.status, 2);
   EXPECT_NE(outcome.err.find("checkpoint.bin"), std::string::npos) << outcome.err;
   EXPECT_EQ(content_of(directory.results() / "force_displacement.csv"), curve);
+}
+
+// Files with a right checksum: of a changed one, or of a program that erred.
+TEST(Program, RefusesToGoOnFromWhatIsNoState) {
+  const TemporaryCase directory(bar_case());
+  const std::string place = directory.path().string();
+  ASSERT_EQ(run({"run", place, "--max-steps", "2"}).status, 0);
+  const fs::path file = directory.results() / "checkpoint.bin";
+  const std::string hash = summary_in(directory.results())["case_hash"], good = content_of(file);
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN(), infinity = std::numeric_limits<double>::infinity();
+  const std::function<void(FractureState&)> faults[] = {[](FractureState& s) { s.increment = 0.0; },
+                                                        [](FractureState& s) { s.increment = -0.1; },
+                                                        [](FractureState& s) { s.increment = nan; },
+                                                        [](FractureState& s) { s.load = -0.1; },
+                                                        [](FractureState& s) { s.load = infinity; },
+                                                        [](FractureState& s) { s.step = -1; },
+                                                        [](FractureState& s) { s.displacement[1][2] = nan; },
+                                                        [](FractureState& s) { s.damage[0] = infinity; },
+                                                        [](FractureState& s) { s.energy.elastic = nan; },
+                                                        [](FractureState& s) { s.boundary_force[0][1] = -infinity; }};
+  const std::string curve = content_of(directory.results() / "force_displacement.csv");
+  for (const auto& fault : faults) {
+    FractureState state = read_checkpoint(file, hash);
+    fault(state);
+    write_checkpoint(file, state, hash);
+    const Outcome outcome = run({"run", place, "--restart"});
+    EXPECT_EQ(outcome.status, 2);
+    EXPECT_NE(outcome.err.find("checkpoint.bin: this is no state of a run: "), std::string::npos) << outcome.err;
+    EXPECT_EQ(content_of(directory.results() / "force_displacement.csv"), curve);
+    directory.write("results/checkpoint.bin", good);
+  }
+  EXPECT_EQ(run({"run", place, "--restart"}).status, 0);
 }
 
 // A run that failed for want of iterations is not lost: the solver's settings and the loading may change.

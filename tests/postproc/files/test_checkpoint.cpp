@@ -8,6 +8,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 
 namespace pfdm::test::this_file {
 namespace {
@@ -100,6 +101,22 @@ TEST(Checkpoint, an_empty_state_comes_back) {
   const TemporaryFolder folder;
   write_checkpoint(folder / "c.bin", {}, "");
   EXPECT_EQ(read_checkpoint(folder / "c.bin", "").damage.size(), 0);
+}
+
+TEST(Checkpoint, finite_is_all_but_the_change_of_cycles_to_come) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  FractureState s = awkward_state();
+  EXPECT_TRUE(is_finite(s));
+  s.heat.cycle_change = infinity;
+  EXPECT_TRUE(is_finite(s));
+  s.heat.cycle_change = std::nan("");
+  EXPECT_FALSE(is_finite(s));
+  s = awkward_state();
+  s.interfaces[0].branch[1][2] = infinity;
+  EXPECT_FALSE(is_finite(s));
+  s = awkward_state();
+  s.histories.of(2)[0] = std::nan("");
+  EXPECT_FALSE(is_finite(s));
 }
 
 TEST(Checkpoint, every_shortened_file_is_refused) {

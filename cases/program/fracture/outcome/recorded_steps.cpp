@@ -4,11 +4,10 @@
 #include "cases/program/fracture/outcome/fatigue_results.h"
 #include "cases/program/fracture/outcome/fracture_files.h"
 #include "cases/program/fracture/outcome/mean_curve.h"
+#include "postproc/fields/checkpoint.h"
 #include "postproc/files/csv_table.h"
 
 #include <fmt/format.h>
-
-#include <cmath>
 
 namespace pfdm {
 namespace {
@@ -51,13 +50,20 @@ void require_columns(const fs::path& folder, std::size_t n_sets, Index last_step
     if (const auto n = count_of(record.steps); n <= last_step) throw lacks_step(folder / record.name, n, last_step);
 }
 
+void require_sense(const FractureState& state, const fs::path& file) {
+  const bool has_place = state.step >= 0 && state.load >= 0.0 && state.increment > 0.0;
+  if (has_place && is_finite(state)) return;
+  throw InputError(fmt::format(
+      "{}: this is no state of a run: {}: run the case again, without --restart", file.string(),
+      has_place ? "some of its numbers are not finite"
+                : fmt::format("step {}, load {}, next increment {}", state.step, state.load, state.increment)));
+}
+
 }  // namespace
 
 void require_steps_up_to(const FractureState& state, const fs::path& results, const FractureCase& fracture,
                          std::size_t n_column_sets) {
-  if (state.step < 0 || !std::isfinite(state.load) || !std::isfinite(state.increment))
-    throw InputError(fmt::format("{}: this is no state of a run: step {}, load {}, next increment {}",
-                                 (results / checkpoint_file).string(), state.step, state.load, state.increment));
+  require_sense(state, results / checkpoint_file);
   require_curve(results / curve_file, state.step);
   if (n_column_sets > 0) require_columns(results / columns_folder, n_column_sets, state.step);
   if (!fracture.output.tips.empty())
