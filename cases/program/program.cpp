@@ -262,7 +262,7 @@ bool is_about_a_name(const std::error_code& code) {
 }  // namespace
 
 int run_program(const std::vector<std::string>& arguments, std::ostream& out, std::ostream& err, bool terminal) {
-  const auto say_error = [&err](std::string_view message) { err << "pfdm: " << message_text(message) << '\n'; };
+  const auto say_error = [&err](std::string_view message) { err << "pfdm: " << error_text(message) << '\n'; };
   try {
     if (const auto line = read_command_line(arguments, out)) do_command(*line, out, err, terminal);
     return done;
@@ -273,7 +273,7 @@ int run_program(const std::vector<std::string>& arguments, std::ostream& out, st
     say_error(error.what());
     return input_wrong;
   } catch (const ComputationError& error) {
-    say_error(error.what());
+    for (const std::string& line : failure_lines(error.what())) err << "pfdm: " << line << '\n';
   } catch (const std::bad_alloc&) {
     say_error("there is not enough memory; pfdm check says how much a fracture case needs");
   } catch (const std::filesystem::filesystem_error& error) {

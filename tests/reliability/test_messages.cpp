@@ -6,9 +6,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace pfdm::this_file {
 namespace {
@@ -50,6 +53,77 @@ TEST(MessageText, LeavesOutTheEndOfALongList) {
   EXPECT_GE(text.size(), 250 + place.size());
   EXPECT_THAT(text, testing::StartsWith(before + keys.substr(0, 150)));
   EXPECT_THAT(text, testing::EndsWith(" more)"));
+}
+
+// Whatever word stands before it, and whatever else is in parentheses.
+TEST(MessageText, LeavesOutTheEndOfTheLongestList) {
+  const std::string word(500, 'k'), key = "\"" + word + "\"";
+  std::string names = "name_0";
+  for (int i = 1; i < 40; ++i) names += ", name_" + std::to_string(i);
+  const std::string text = error_text("/home/case.toml:9: [figures] (of a: step) homogenized.json has no " + key +
+                                      ": " + key + " is not there (there is: " + names + ")");
+  EXPECT_LE(text.size(), 290U + 5U) << text;
+  EXPECT_THAT(text, HasSubstr("(there is: name_0, "));
+  EXPECT_THAT(text, testing::EndsWith(" more)"));
+}
+
+TEST(ErrorText, LeavesOutTheMiddle) {
+  const std::string front = "/home/somebody/case.toml:3: the first words ", back = " and the last words";
+  std::string middle;
+  for (int i = 0; i < 100; ++i) middle += fmt::format(" \xC3\xA4{}", i);
+  const std::string text = error_text(front + middle + back);
+  EXPECT_LE(text.size(), 290U + 14U);
+  EXPECT_GE(text.size(), 270U);
+  EXPECT_THAT(text, testing::StartsWith(front));
+  EXPECT_THAT(text, HasSubstr(" ... "));
+  EXPECT_THAT(text, testing::EndsWith(back));
+  EXPECT_EQ(error_text(front + back), front + back);
+}
+
+TEST(FailureLines, KeepAllWordsInShortLines) {
+  const std::string cause = "step 3 did not converge: the damage of cell 7 changes by 1.0e-03 an iteration";
+  EXPECT_THAT(failure_lines(cause + "; what may help: more"), testing::ElementsAre(cause + "; what may help: more"));
+  std::string all = cause;
+  for (int i = 0; i < 12; ++i)
+    all += fmt::format("{}what may help: way {} of all that there are", i % 2 == 0 ? "; " : ". ", i);
+  std::size_t sum = 0;
+  const std::vector<std::string> lines = failure_lines(all);
+  for (const std::string& line : lines) {
+    EXPECT_LE(line.size(), 290U);
+    sum += line.size();
+  }
+  EXPECT_GE(lines.size(), 2U);
+  EXPECT_EQ(sum + 2 * (lines.size() - 1), all.size());
+  for (const std::string& line : failure_lines(std::string(1000, 'x') + " " + std::string(1000, 'y')))
+    EXPECT_LE(line.size(), 290U);
+}
+
+TEST(Messages, OfAFigureWithALongKeyAreShort) {
+  const TemporaryCase directory(R"(kind = "chain"
+title = "one step"
+[[step]]
+case = "block"
+figures = [{ says = "modulus", file = "homogenized.json", key = ")" +
+                                std::string(7000, 'a') + R"(" }]
+)");
+  std::filesystem::create_directory(directory.path() / "block");
+  directory.write("block/case.toml", R"(kind = "homogenize"
+title = "one material"
+[mesh]
+generator = "box_hexes"
+x = [{ length = "1 mm", cells = 2 }]
+y = [{ length = "1 mm", cells = 2 }]
+z = [{ length = "1 mm", cells = 2 }]
+region = "rubber"
+[materials.rubber]
+regions = ["rubber"]
+young_modulus = "10 MPa"
+poisson_ratio = 0.4
+)");
+  const Outcome outcome = run({"run", directory.path().string()});
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_EQ(std::ranges::count(outcome.err, '\n'), 1) << outcome.err;
+  EXPECT_LE(outcome.err.size(), 300 + directory.path().string().size()) << outcome.err;
 }
 
 TEST(MessageText, QuotesLongWordsTwiceInShort) {

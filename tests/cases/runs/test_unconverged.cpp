@@ -5,6 +5,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <sstream>
+#include <string>
+
 namespace pfdm::this_file {
 namespace {
 
@@ -24,7 +27,10 @@ std::string failure_of(const std::string& text) {
   const Outcome outcome = run({"run", directory.path().string(), "--quiet"});
   EXPECT_EQ(outcome.status, 1) << outcome.err;
   const auto last = outcome.err.find("with the smallest increment");
-  return last == std::string::npos ? outcome.err : outcome.err.substr(last);
+  std::string words = last == std::string::npos ? outcome.err : outcome.err.substr(last);
+  for (const std::string between = "\npfdm: "; words.find(between) != std::string::npos;)
+    words.replace(words.find(between), between.size(), ", ");  // lines of one message
+  return words;
 }
 
 TEST(Unconverged, NamesTheCellThatBreaksAndWhatHelps) {
@@ -50,6 +56,21 @@ TEST(Unconverged, OffersWhatTheCaseAllows) {
                                 "traction = [\"30 MPa\", \"0 Pa\", \"0 Pa\"]");
   pulled = replaced(pulled, "frames_at = [\"0.006 mm\"]", "");
   EXPECT_THAT(failure_of(pulled), HasSubstr("dissipation control (loading.maximum_dissipation)"));
+}
+
+// Advice has a line of its own where the message would be too long.
+TEST(Unconverged, IsSaidInShortLines) {
+  std::string pulled = replaced(hasty_bar(3), "displacement = [\"0.015 mm\", \"free\", \"free\"]",
+                                "traction = [\"30 MPa\", \"0 Pa\", \"0 Pa\"]");
+  const TemporaryCase directory(replaced(pulled, "frames_at = [\"0.006 mm\"]", ""));
+  const Outcome outcome = run({"run", directory.path().string(), "--quiet"});
+  EXPECT_EQ(outcome.status, 1);
+  std::istringstream lines(outcome.err);
+  int n = 0;
+  for (std::string line; std::getline(lines, line); ++n) EXPECT_LE(line.size(), 300U) << line;
+  EXPECT_GE(n, 2) << outcome.err;
+  EXPECT_THAT(outcome.err, HasSubstr("what may help: more than 3 iterations (solver.maximum_iterations), "));
+  EXPECT_THAT(outcome.err, Not(HasSubstr(" ... ")));
 }
 
 }  // namespace

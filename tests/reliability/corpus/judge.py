@@ -59,10 +59,11 @@ def faults(outcome, folder, places, surely_wrong):
         if surely_wrong:
             found.append("accepted")
         return found + (["a message in spite of exit status 0"] if text else [])
-    if text.count("\n") != 1 or not text.endswith("\n"):
+    if not text.endswith("\n") or (status == 2 and text.count("\n") != 1):
         found.append(f"{text.count(chr(10))} lines")
-    if len(text.replace(str(folder), "").encode()) > LONGEST:
-        found.append(f"{len(text)} characters")
+    longest = max(len(line.replace(str(folder), "").encode()) for line in text.split("\n"))
+    if longest > LONGEST:
+        found.append(f"{longest} characters in a line")
     if "\ufffd" in text or re.search(r"[\x00-\x09\x0b-\x1f\x7f]", text):
         found.append("control characters")
     if word := INSIDE.search(text):

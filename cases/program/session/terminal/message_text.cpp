@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace pfdm {
 namespace {
@@ -77,30 +78,85 @@ std::size_t size_of_folders(std::string_view text) {
   return sum;
 }
 
-/// Leaves out the last of "(allowed: a, b, c)", so many as are too long; the rest of the message stays.
+std::size_t count_of(std::string_view text, std::string_view what) {
+  std::size_t n = 0;
+  for (std::size_t at = text.find(what); at != std::string_view::npos; at = text.find(what, at + what.size())) ++n;
+  return n;
+}
+
+/// The longest list in parentheses, from the bracket to before its end, as "(allowed: a, b, c" or "(there is: a, b, c".
+std::string_view longest_list(std::string_view text) {
+  std::string_view longest;
+  for (std::size_t begin = text.find('('); begin != std::string_view::npos; begin = text.find('(', begin + 1)) {
+    const std::string_view list = text.substr(begin, text.find(')', begin) - begin);
+    const bool is_list = list.find(": ") < list.find(", ") && count_of(list, ", ") > 1;
+    if (is_list && list.size() > longest.size()) longest = list;
+  }
+  return longest;
+}
+
+/// Leaves out the last of such a list, so many as are too long; the rest of the message stays.
 std::string with_short_list(const std::string& text, std::size_t longest) {
-  const std::size_t begin = std::min(text.find("(allowed: "), text.find("(available: ")), end = text.find(')', begin);
-  if (text.size() <= longest || end == std::string::npos) return text;
-  const std::string_view list = std::string_view(text).substr(begin, end - begin);
+  const std::string_view list = longest_list(text);
+  if (text.size() <= longest || list.empty()) return text;
   const std::size_t too_much = text.size() - longest + std::string_view(", ... 999 more").size();
   const std::size_t cut = list.rfind(", ", list.size() - std::min(too_much, list.size()));
   if (cut == std::string_view::npos) return text;
-  const std::string_view left_out = list.substr(cut + 2);
-  std::size_t n = 1;
-  for (std::size_t at = left_out.find(", "); at != std::string_view::npos; at = left_out.find(", ", at + 2)) ++n;
-  return fmt::format("{}{}, ... {} more{}", text.substr(0, begin), list.substr(0, cut), n, text.substr(end));
+  const auto begin = static_cast<std::size_t>(list.data() - text.data());
+  return fmt::format("{}, ... {} more{}", text.substr(0, begin + cut), count_of(list.substr(cut), ", "),
+                     text.substr(begin + list.size()));
+}
+
+constexpr std::size_t longest = 290;  // beside the folders of files
+
+/// Leaves out the middle, between words, of what is still too long.
+std::string with_short_middle(const std::string& text) {
+  constexpr std::string_view gap = " ... ";
+  const std::size_t most = longest + size_of_folders(text);
+  if (text.size() <= most) return text;
+  const std::size_t last = most / 3, end = text.find(' ', text.size() - last);
+  const std::size_t first = text.rfind(' ', most - last - gap.size());
+  if (end == std::string::npos || first == std::string::npos)
+    return fmt::format("{}{}{}", text.substr(0, border(text, most - last - gap.size())), gap,
+                       text.substr(border(text, text.size() - last)));
+  return fmt::format("{}{}{}", text.substr(0, first), gap, text.substr(end + 1));
+}
+
+/// Where the first line of a text ends that need not be longer than allowed: after a clause, or else after a comma.
+std::size_t end_of_line(std::string_view text) {
+  const std::size_t most = longest + size_of_folders(text);
+  if (text.size() <= most) return text.size();
+  for (const auto& [one, other] : {std::pair{"; ", ". "}, std::pair{", ", ": "}}) {
+    std::size_t end = 0;
+    for (const std::string_view mark : {one, other})
+      if (const std::size_t at = text.rfind(mark, most); at != std::string_view::npos) end = std::max(end, at);
+    if (end > 0) return end;
+  }
+  return text.size();
 }
 
 }  // namespace
 
 std::string message_text(std::string_view message) {
   constexpr Lengths usual{120, 250, has_a_slash}, tight{45, 250, begins_at_the_root};
-  constexpr std::size_t longest = 290, longest_of_all = 2000, first_kept = 1400, last_kept = 500;
+  constexpr std::size_t longest_of_all = 2000, first_kept = 1400, last_kept = 500;
   const std::string shown = with_shown_bytes(message);
   std::string text = with_short_words(shown, usual);
   if (text.size() > longest + size_of_folders(text)) text = with_short_words(shown, tight);
   text = with_short_list(text, longest + size_of_folders(text));
   return text.size() <= longest_of_all ? text : with_ends_kept(text, first_kept, last_kept);
+}
+
+std::string error_text(std::string_view message) { return with_short_middle(message_text(message)); }
+
+std::vector<std::string> failure_lines(std::string_view message) {
+  std::vector<std::string> lines;
+  for (std::string rest = message_text(message); !rest.empty();) {
+    const std::size_t end = end_of_line(rest);
+    lines.push_back(with_short_middle(rest.substr(0, end)));
+    rest.erase(0, std::min(end + 2, rest.size()));
+  }
+  return lines;
 }
 
 }  // namespace pfdm
