@@ -128,6 +128,7 @@ std::string copy_steps(const CaseFile& chain, const fs::path& directory) {
     const std::string inside = way_to(old.directory, chain.directory);
     steps.push_back({old, directory / (inside.starts_with("..") ? fs::path(case_name(old)) : fs::path(inside))});
     set_case(i, steps.back().place);
+    if (old_steps[i].outside) text = with_value(text, fmt::format("step[{}].outside", i), "false");
   }
   for (const CopiedStep& step : steps) copy_step(step, steps);
   return text;

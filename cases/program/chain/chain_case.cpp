@@ -40,6 +40,18 @@ Verdict read_accepted(const ConfigTable& table, const ChainJob& job) {
   return accept->choice() == "sound" ? worst_sound : Verdict::questionable;
 }
 
+/// Results go beside the step's case: not into folders of others without a word.
+bool read_outside(const ConfigTable& table, const ConfigValue& place, const fs::path& where,
+                  const fs::path& directory) {
+  const bool allowed = table.boolean("outside", false);
+  if (lies_in(where, directory)) return false;
+  if (allowed) return true;
+  throw place.error(
+      fmt::format("\"{}\" lies outside of the chain's folder, and the step's results would go there: outside = true in "
+                  "its [[step]] allows it",
+                  place.string()));
+}
+
 ChainStep read_step(const ConfigTable& table, const fs::path& directory) {
   const ConfigValue place = table.at("case");
   const auto does = table.find("does");
@@ -50,12 +62,18 @@ ChainStep read_step(const ConfigTable& table, const fs::path& directory) {
                  .place = place};
   if (!fs::path(place.string()).is_relative())
     throw place.error("the way to a step's case starts at the chain's directory; this path does not");
+  step.outside = read_outside(table, place, step.where, directory);
   step.accepted = read_accepted(table, *step.job);
   for (const ConfigTable& figure : table.tables("figures")) step.figures.push_back(read_figure(figure, *step.job));
   return step;
 }
 
 }  // namespace
+
+bool lies_in(const fs::path& file, const fs::path& folder) {
+  const fs::path inner = fs::weakly_canonical(fs::absolute(file)), outer = fs::weakly_canonical(fs::absolute(folder));
+  return std::mismatch(outer.begin(), outer.end(), inner.begin(), inner.end()).first == outer.end();
+}
 
 std::span<const ChainJob> chain_jobs() { return jobs; }
 

@@ -41,6 +41,7 @@ struct ChainFigure {
 struct ChainStep {
   std::string name;
   std::filesystem::path where;  ///< of its case: a directory, or a .toml file in it
+  bool outside = false;         ///< lies outside of the chain's folder, as it may
   const ChainJob* job = nullptr;
   Verdict accepted = worst_sound;  ///< the worst verdict on its fit with which the chain goes on
   std::vector<ChainFigure> figures;
@@ -52,7 +53,11 @@ struct ChainCase {
   std::vector<ChainStep> steps;
 };
 
-/// Steps' cases are not read here: what they take from earlier steps may not be there yet.
+/// Whether a file or folder lies in a folder, links followed; neither need be there.
+bool lies_in(const std::filesystem::path& file, const std::filesystem::path& folder);
+
+/// Steps' cases are not read here: what they take from earlier steps may not be there yet. Throws InputError also for a
+/// step outside of the chain's folder that does not say so.
 ChainCase read_chain_case(const ConfigTable& root, const std::filesystem::path& case_directory);
 
 }  // namespace pfdm

@@ -26,6 +26,8 @@ const KeyTable& step_keys() {
       .sentence = "A job of another case.",
       .keys = {{"name", text("name"), "the path", "What the step is called."},
                {"case", path(), "", "Case directory of the step, or a .toml file in one, seen from the chain's."},
+               {"outside", flag(), "false",
+                "Whether the step's case, and with it its results, may lie outside of the chain's folder."},
                {"does", one_of("job of a step", chain_jobs()), "\"run\"", "What the step does: run or fit."},
                {"accept", choice("verdict with which a chain goes on", {"sound", "questionable"}), "\"sound\"",
                 "Worst verdict on a fit with which the chain goes on."},

@@ -14,6 +14,7 @@
 #include "postproc/files/json.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <memory>
@@ -61,11 +62,6 @@ const DoneStep* done_before(const ChainRecord& record, const ReadyStep& ready, c
   const DoneStep* const done = record.version == version ? record.find(ready.step.name) : nullptr;
   if (done == nullptr || done->does != ready.step.job->name || done->key != ready.key) return nullptr;
   return fs::is_regular_file(ready.outcome()) && content_hash(ready.outcome()) == done->outcome ? done : nullptr;
-}
-
-bool lies_in(const fs::path& file, const fs::path& folder) {
-  const fs::path inner = fs::weakly_canonical(fs::absolute(file)), outer = fs::weakly_canonical(fs::absolute(folder));
-  return std::mismatch(outer.begin(), outer.end(), inner.begin(), inner.end()).first == outer.end();
 }
 
 fs::path results_of(const ChainStep& step) {
@@ -158,9 +154,20 @@ void say_taken(const ReadyStep& ready, Log& log) {
     log.say(fmt::format("  {} = {:.6g}, {} of {}", number.into, number.value, number.key, number.from));
 }
 
+/// Whose results go elsewhere than into the chain's folder.
+void say_outside(const ChainProgram& program, Log& log) {
+  std::vector<std::string> outside;
+  for (const ChainStep& step : program.chain.steps)
+    if (step.outside) outside.push_back(fmt::format("{} ({})", step.name, results_of(step).string()));
+  if (!outside.empty())
+    log.say(fmt::format("results of {} go outside of the chain's folder: {}",
+                        counted(static_cast<Index>(outside.size()), "step"), fmt::join(outside, ", ")));
+}
+
 void check(const ChainProgram& program, Session& session) {
   Log& log = session.log;
   log.say(fmt::format("{}: {}", program.name, program.chain.title));
+  say_outside(program, log);
   const ChainRecord record = read_chain(session.results);
   const ChainStep* waited_for = nullptr;  // the first that has to be done
   std::vector<const ChainStep*> open;     // what has to be done, and what depends on it
@@ -198,6 +205,7 @@ void run_case(const ChainProgram& program, Session& session) {
   Log& log = session.log;
   log.open_file(session.results / "run.log", false);
   log.say(head_line(session, fmt::format("case {}: {}", program.name, program.chain.title)));
+  say_outside(program, log);
   const ChainRecord earlier = read_chain(session.results);
   ChainRecord record{.case_name = program.name, .status = "incomplete", .version = session.version, .steps = {}};
   const Stopwatch watch;

@@ -161,15 +161,45 @@ TEST_P(WrongChains, AreRefused) {
 
 INSTANTIATE_TEST_SUITE_P(
     Each, WrongChains,
-    testing::Values(WrongChain{"case = \"block\"", "case = \"blok\"", "there is no such case directory"},
-                    WrongChain{"case = \"block\"", "case = \".\"", "cannot be a chain itself"},
-                    WrongChain{"case = \"block\"", "case = \"block\"\ndoes = \"fit\"", "has no \"fit\""},
-                    WrongChain{"case = \"block\"", "case = \"block\"\ndoes = \"runn\"", "did you mean \"run\""},
-                    WrongChain{"\"mass on it\"", "\"block\"", "there are two steps \"block\""},
-                    WrongChain{"\"linear_resonance_Hz\"", "\"linear_resonance\"",
-                               "did you mean \"linear_resonance_Hz\""},
-                    WrongChain{"[[step]]\ncase", "[sweep]\n[[step]]\ncase", "a chain has no sweep"},
-                    WrongChain{"file = \"homogenized.json\"", "file = \"../x.json\"", "not the name of a file"}));
+    testing::Values(
+        WrongChain{"case = \"block\"", "case = \"blok\"", "there is no such case directory"},
+        WrongChain{"case = \"block\"", "case = \".\"", "cannot be a chain itself"},
+        WrongChain{"case = \"block\"", "case = \"block\"\ndoes = \"fit\"", "has no \"fit\""},
+        WrongChain{"case = \"block\"", "case = \"block\"\ndoes = \"runn\"", "did you mean \"run\""},
+        WrongChain{"\"mass on it\"", "\"block\"", "there are two steps \"block\""},
+        WrongChain{"\"linear_resonance_Hz\"", "\"linear_resonance\"", "did you mean \"linear_resonance_Hz\""},
+        WrongChain{"[[step]]\ncase", "[sweep]\n[[step]]\ncase", "a chain has no sweep"},
+        WrongChain{"case = \"block\"", "case = \"../block\"",
+                   "case.toml:4: [step] case: \"../block\" lies outside of the chain's folder, and the step's "
+                   "results would go there: outside = true in its [[step]] allows it"},
+        WrongChain{"case = \"block\"", "case = \"block\"\noutside = 1", "outside"},
+        WrongChain{"file = \"homogenized.json\"", "file = \"../x.json\"", "not the name of a file"}));
+
+// Also by a link within.
+TEST_F(Chain, LeavesFoldersOutsideAloneUnlessItMayWriteThere) {
+  const TemporaryCase outside(block("10 MPa"));
+  const std::string way = "../" + outside.path().filename().string();
+  fs::create_directory_symlink(outside.path(), directory.path() / "linked");
+  for (const std::string& place : {way, std::string("linked")}) {
+    directory.write("case.toml", replaced(chain, "case = \"block\"", "case = \"" + place + "\""));
+    for (const char* word : {"check", "run"}) EXPECT_EQ(command(word).status, 2) << place;
+    EXPECT_FALSE(fs::exists(outside.results()));
+  }
+  directory.write("case.toml", replaced(replaced(chain, "case = \"block\"", "case = \"" + way + "\"\noutside = true"),
+                                        "[[step]]\nname = \"mass on it\"", "[[step]]\nname = \"other\""));
+  put("sample", block("20 MPa"));
+  directory.write("case.toml",
+                  replaced(content_of(directory.path() / "case.toml"),
+                           "figures = [{ says = \"resonance\", key = \"linear_resonance_Hz\", unit = \"Hz\" }]", ""));
+  for (const char* word : {"check", "run"}) {
+    const Outcome outcome = command(word);
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    const std::string says = "results of 1 step go outside of the chain's folder: " + way + " (";
+    EXPECT_THAT(outcome.out, HasSubstr(says));
+    EXPECT_EQ(outcome.out.find(says), outcome.out.rfind(says));
+  }
+  EXPECT_TRUE(fs::exists(outside.results() / "summary.json"));
+}
 
 TEST_F(Chain, HasNoLoadSteps) { EXPECT_EQ(run({"run", directory.path().string(), "--max-steps", "3"}).status, 2); }
 
@@ -177,7 +207,7 @@ TEST_F(Chain, HasNoLoadSteps) { EXPECT_EQ(run({"run", directory.path().string(),
 TEST_F(Chain, IsCopiedWithItsSteps) {
   const TemporaryCase outside(block("10 MPa"));
   const std::string name = outside.path().filename().string();
-  directory.write("case.toml", replaced(chain, "case = \"block\"", "case = \"../" + name + "\""));
+  directory.write("case.toml", replaced(chain, "case = \"block\"", "case = \"../" + name + "\"\noutside = true"));
   std::string text = sample;
   for (int i = 0; i < 2; ++i) {
     const std::size_t at = text.find("\"../block/");
@@ -189,7 +219,7 @@ TEST_F(Chain, IsCopiedWithItsSteps) {
   const Outcome copied = run({"init", made.string(), "--like", directory.path().string()});
   ASSERT_EQ(copied.status, 0) << copied.err;
   EXPECT_THAT(content_of(made / "case.toml"),
-              AllOf(HasSubstr("case = \"" + name + "\""), HasSubstr("edit this title")));
+              AllOf(HasSubstr("case = \"" + name + "\""), HasSubstr("outside = false"), HasSubstr("edit this title")));
   EXPECT_THAT(content_of(made / "sample" / "case.toml"), HasSubstr("\"../" + name + "/results/homogenized.json\""));
   const Outcome outcome = run({"run", made.string(), "--threads", "1"});
   EXPECT_EQ(outcome.status, 0) << outcome.err;
