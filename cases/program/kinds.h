@@ -17,4 +17,7 @@ bool knows_kind(const CaseFile& file);
 /// Throws InputError for whatever is wrong with the file, unknown keys included.
 RunnableCase read_case(const CaseFile& file);
 
+/// CaseKind::numbers_like of a kind by name; "" for a kind that this executable was built without.
+std::string numbers_like(std::string_view kind, std::string_view file);
+
 }  // namespace pfdm

@@ -134,7 +134,8 @@ void do_case(const CommandLine& line, std::ostream& out, std::ostream& err, bool
                   .slurm = line.slurm,
                   .curve_to = line.curve_to,
                   .exports = line.exports,
-                  .sensitivity = line.sensitivity};
+                  .sensitivity = line.sensitivity,
+                  .numbers_like = numbers_like};
   if (line.cases.size() > 1) return do_comparison(line, session);
   if (line.prepared)
     return do_job([&](Session& s) { make_prepared_run(line.case_directory, *line.prepared, s); }, session, "");

@@ -33,6 +33,11 @@ bool knows_kind(const CaseFile& file) {
   return std::ranges::count(case_kinds(), kind.string(), &CaseKind::name) > 0;
 }
 
+std::string numbers_like(std::string_view kind, std::string_view file) {
+  const auto found = std::ranges::find(case_kinds(), kind, &CaseKind::name);
+  return found == case_kinds().end() || found->numbers_like == nullptr ? "" : found->numbers_like(file);
+}
+
 RunnableCase read_case(const CaseFile& file) {
   if (!knows_kind(file))
     throw file.config.root().at("kind").error(

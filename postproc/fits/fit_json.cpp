@@ -219,7 +219,9 @@ OwnFindings own_findings(const FractureFindings& findings) {
   return {.kind = "fracture", .json = json_line(to_json(findings))};
 }
 
-void write_fit_json(const std::filesystem::path& file, const FitReport& report) {
+namespace {
+
+Json to_json(const FitReport& report) {
   Json json = {{"format", format},
                {"kind", report.own.kind},
                {"case", report.case_name},
@@ -233,7 +235,30 @@ void write_fit_json(const std::filesystem::path& file, const FitReport& report) 
   if (!report.events.empty()) json["events"] = to_json(report.events);
   if (!report.fields.empty()) json["fields"] = to_json(report.fields);
   json[report.own.kind] = Json::parse(report.own.json);
-  write_file(file, json_text(json));
+  return json;
+}
+
+}  // namespace
+
+void write_fit_json(const std::filesystem::path& file, const FitReport& report) {
+  write_file(file, json_text(to_json(report)));
+}
+
+std::string fit_json_like(const std::string& kind) {
+  FitReport report;
+  report.own.kind = kind;
+  FittedParameter& parameter = report.found.parameters.emplace_back();
+  parameter.profile.emplace();
+  parameter.posterior.emplace();
+  parameter.widened_by = 2.0;
+  parameter.moved_by_finer = 0.0;
+  report.found.finer = report.found.sensitivity_file = "name";
+  report.found.posterior.emplace().discrepancy.emplace();
+  report.found.first_rms = 0.0;
+  report.found.screened = {FitIteration{}};
+  Json json = to_json(report);
+  for (const char* name : {"experiments", "events", "fields"}) json[name] = Json::array();
+  return json_text(json);
 }
 
 FitReport read_fit_json(const std::filesystem::path& path) {

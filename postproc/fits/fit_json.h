@@ -46,6 +46,10 @@ struct FitReport {
 /// Written whole or not at all; numbers that are not finite become null. Throws ComputationError.
 void write_fit_json(const std::filesystem::path& path, const FitReport& report);
 
+/// Text of a fit.json of a kind of case with all that may be in one. Lists have one entry, which stands for all; what
+/// is empty may hold anything. The values mean nothing.
+std::string fit_json_like(const std::string& kind);
+
 /// What reports show of it: parameters, experiments, method and time, and what the kind of case tells of its own.
 /// Throws InputError that names the file for what is no such fit, or one of another format.
 FitReport read_fit_json(const std::filesystem::path& path);

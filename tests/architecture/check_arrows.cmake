@@ -89,7 +89,7 @@ set(rooms
     "cases/program/studies: physics solver/calibration postproc/files postproc/curves postproc/displacements postproc/page postproc/browser cases/program/input
      cases/program/session cases/program/studies/runs cases/program/studies/fit
      cases/program/studies/sensitivity cases/program/studies/sweep"
-    "cases/program/chain: physics solver/calibration postproc/files postproc/page cases/program/input cases/program/session"
+    "cases/program/chain: physics solver/calibration postproc/files postproc/fits postproc/page cases/program/input cases/program/session"
     "cases/program/point: physics solver/point postproc/files postproc/curves postproc/fits postproc/point postproc/page cases/program/input
      cases/program/session cases/program/studies"
     "cases/program/viscoelastic: physics solver/point postproc/files postproc/curves postproc/fits postproc/point postproc/page cases/program/input

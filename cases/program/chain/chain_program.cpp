@@ -3,9 +3,8 @@
 #include "cases/program/chain/chain_case.h"
 #include "cases/program/chain/chain_page.h"
 #include "cases/program/chain/chain_record.h"
-#include "cases/program/input/case_files/kept_case.h"
+#include "cases/program/chain/chain_step.h"
 #include "cases/program/input/config/result_number.h"
-#include "cases/program/input/fields/field_reader.h"
 #include "cases/program/session/head_line.h"
 #include "cases/program/session/report_parts.h"
 #include "cases/program/session/terminal/stopwatch.h"
@@ -18,6 +17,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <optional>
 #include <utility>
 
 namespace pfdm {
@@ -30,42 +30,11 @@ struct ChainProgram {
   ChainCase chain;
 };
 
-/// A step whose case can be read: all that it takes from others is there.
-struct ReadyStep {
-  const ChainStep& step;
-  CaseFile file;
-  RunnableCase runnable;
-  fs::path results;
-  std::string key;
-
-  fs::path outcome() const { return results / step.job->outcome; }
-  const std::function<void(Session&)>& job() const { return runnable.*(step.job->job); }
-};
-
-ReadyStep get_ready(const ChainStep& step, const Session& session) {
-  return step.place.in_context([&] {
-    CaseFile file = open_case(step.where);
-    if (file.config.root().string("kind") == "chain") throw InputError("a step of a chain cannot be a chain itself");
-    ReadyStep ready{step, file, session.read_case(file), own_results(file), ""};
-    for (const std::string& remark : ready.file.config.remarks()) session.log.say(remark);
-    if (!ready.job()) throw InputError(fmt::format("this kind of case has no \"{}\"", step.job->name));
-    std::vector<fs::path> data = data_files_named(file);
-    const std::vector<fs::path> fields = field_files(file);  // with the frames that their lists name
-    data.insert(data.end(), fields.begin(), fields.end());
-    ready.key = case_hash(file, data);
-    return ready;
-  });
-}
-
 /// The record of a step that need not be done again; null if it must.
 const DoneStep* done_before(const ChainRecord& record, const ReadyStep& ready, const std::string& version) {
   const DoneStep* const done = record.version == version ? record.find(ready.step.name) : nullptr;
   if (done == nullptr || done->does != ready.step.job->name || done->key != ready.key) return nullptr;
   return fs::is_regular_file(ready.outcome()) && content_hash(ready.outcome()) == done->outcome ? done : nullptr;
-}
-
-fs::path results_of(const ChainStep& step) {
-  return (step.where.extension() == ".toml" ? step.where.parent_path() : step.where) / "results";
 }
 
 /// The step's case, if it is a file of its own, and its data.
@@ -168,26 +137,33 @@ void check(const ChainProgram& program, Session& session) {
   Log& log = session.log;
   log.say(fmt::format("{}: {}", program.name, program.chain.title));
   say_outside(program, log);
+  for (const ChainStep& step : program.chain.steps) require_known_figures(step, session);
   const ChainRecord record = read_chain(session.results);
   const ChainStep* waited_for = nullptr;  // the first that has to be done
   std::vector<const ChainStep*> open;     // what has to be done, and what depends on it
-  for (const ChainStep& step : program.chain.steps) try {
-      const ReadyStep ready = get_ready(step, session);
-      const bool done = done_before(record, ready, session.version) != nullptr;
-      if (!done && waited_for == nullptr) waited_for = &step;
-      const auto source = std::ranges::find_if(open, [&](const ChainStep* s) { return takes_from(ready, *s); });
-      const std::string state = !done ? "to be done"
-                                : source == open.end()
-                                    ? "done"
-                                    : fmt::format("done again if \"{}\" gives it other values", (*source)->name);
-      if (!done || source != open.end()) open.push_back(&step);
-      log.say(fmt::format("step {}: {}, {}", step.name, step.job->name, state));
-      say_taken(ready, log);
+  for (const ChainStep& step : program.chain.steps) {
+    std::optional<ReadyStep> read;
+    try {
+      read.emplace(get_ready(step, session));
     } catch (const InputError& error) {
       if (waited_for == nullptr) throw;
       log.say(
           fmt::format("step {}: {}, waits for \"{}\" ({})", step.name, step.job->name, waited_for->name, error.what()));
+      continue;
     }
+    const ReadyStep& ready = *read;
+    warn_of_absent_figures(ready, log);
+    const bool done = done_before(record, ready, session.version) != nullptr;
+    if (!done && waited_for == nullptr) waited_for = &step;
+    const auto source = std::ranges::find_if(open, [&](const ChainStep* s) { return takes_from(ready, *s); });
+    const std::string state = !done ? "to be done"
+                              : source == open.end()
+                                  ? "done"
+                                  : fmt::format("done again if \"{}\" gives it other values", (*source)->name);
+    if (!done || source != open.end()) open.push_back(&step);
+    log.say(fmt::format("step {}: {}, {}", step.name, step.job->name, state));
+    say_taken(ready, log);
+  }
   log.say(fmt::format("results go to {}, those of the steps to their own cases", session.results.string()));
   log.say("the input is valid");
 }
@@ -201,6 +177,7 @@ ChainRecord with_later_steps(ChainRecord record, const ChainRecord& earlier) {
 
 void run_case(const ChainProgram& program, Session& session) {
   if (session.max_steps) throw InputError("a chain has no load steps: --max-steps is for the cases of its steps");
+  for (const ChainStep& step : program.chain.steps) require_known_figures(step, session);
   const FolderLock lock(session.results);
   Log& log = session.log;
   log.open_file(session.results / "run.log", false);

@@ -175,9 +175,12 @@ CaseKind homogenization_kind() {
       .description = "effective linear stiffness of a meshed composite, or its stress-strain curve while it debonds",
       .read = read_program,
       .laws = laws,
-      .keys = [] {
-        return std::vector<const KeyTable*>{&composite_keys(), &debonding_keys()};
-      }};
+      .keys =
+          [] {
+            return std::vector<const KeyTable*>{&composite_keys(), &debonding_keys()};
+          },
+      .numbers_like =
+          [](std::string_view file) { return file == homogenized_file ? homogenized_like() : std::string(); }};
 }
 
 }  // namespace pfdm

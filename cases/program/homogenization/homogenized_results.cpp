@@ -156,6 +156,20 @@ Json homogenized_json(const HomogenizationCase& homogenization, const Mesh& mesh
   return json;
 }
 
+std::string homogenized_like() {
+  HomogenizationCase homogenization;
+  homogenization.by_name.emplace_back();
+  homogenization.settings.loading = &homogenization_loadings().front();
+  EffectiveMaterial material;
+  material.fraction = material.energy_share = {0.0};
+  material.density = 0.0;
+  material.hashin_shtrikman.emplace();
+  material.reuss_voigt.emplace();
+  Homogenized result;
+  result.stiffness.setIdentity();
+  return json_text(homogenized_json(homogenization, Mesh{}, result, material));
+}
+
 void write_homogenized(const std::filesystem::path& folder, const HomogenizationCase& homogenization, const Mesh& mesh,
                        const Homogenized& result, const EffectiveMaterial& material, const ResultOrigin& origin) {
   Json json = {{"case", origin.case_name}, {"case_hash", origin.case_hash}, {"version", origin.version}};

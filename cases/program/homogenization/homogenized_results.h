@@ -43,6 +43,10 @@ struct ResultOrigin {
 nlohmann::ordered_json homogenized_json(const HomogenizationCase& homogenization, const Mesh& mesh,
                                         const Homogenized& result, const EffectiveMaterial& material);
 
+/// Text of a homogenized.json with all that may be in one, and one material, which stands for all. The values mean
+/// nothing.
+std::string homogenized_like();
+
 void write_homogenized(const std::filesystem::path& folder, const HomogenizationCase& homogenization, const Mesh& mesh,
                        const Homogenized& result, const EffectiveMaterial& material, const ResultOrigin& origin);
 

@@ -34,6 +34,9 @@ struct CaseKind {
   std::vector<LawTable> (*laws)() = nullptr;  ///< may be empty
   /// The rows of the keys of its files, one table for each way in which they are read.
   std::vector<const KeyTable*> (*keys)() = nullptr;
+  /// A file of results of `run` by its name, in JSON with all that it may hold, as for require_key_like(); "" for one
+  /// that depends on the case.
+  std::string (*numbers_like)(std::string_view file) = nullptr;
 };
 
 }  // namespace pfdm

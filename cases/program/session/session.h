@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace pfdm {
@@ -42,6 +43,8 @@ struct Session {
   SensitivityWords sensitivity{};
   std::optional<LiveCommands> live{};               ///< report/index.html is kept up to date while the run goes on
   const std::vector<FieldPlace>* places = nullptr;  ///< whose displacements a run records, step by step
+  /// CaseKind::numbers_like of a kind by name: for jobs that take numbers from runs to come; null: nothing is known.
+  std::string (*numbers_like)(std::string_view kind, std::string_view file) = nullptr;
 };
 
 }  // namespace pfdm

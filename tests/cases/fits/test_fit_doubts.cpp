@@ -1,7 +1,9 @@
 // What pfdm fit says of fits that must not be taken at their word, and what it does before a person has to. All data
 // are SYNTHETIC, made by the tests.
 
+#include "cases/program/input/config/result_number.h"
 #include "postproc/files/csv_table.h"
+#include "postproc/fits/fit_json.h"
 #include "tests/cases/glued_blocks.h"
 
 #include <fmt/format.h>
@@ -9,8 +11,10 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
+#include <utility>
 
 namespace pfdm::this_file {
 namespace {
@@ -259,6 +263,24 @@ TEST_F(ChainOfAFit, GoesOnWhereItIsTold) {
 
   directory.write("case.toml", chain_of("accept = \"failed\"\n"));
   EXPECT_EQ(run({"check", directory.path().string()}).status, 2);
+}
+
+// Names in fit.json are known before there is one; lists may be longer.
+TEST_F(ChainOfAFit, RefusesFiguresThatNoFitHas) {
+  for (const auto& [key, status] : {std::pair("parameters[0].estimat", 2), std::pair("parameter[0].estimate", 2),
+                                    std::pair("parameters.estimate", 2), std::pair("parameters[7].profile.upper", 0),
+                                    std::pair("experiments[0].rms_misfit_N", 0)}) {
+    directory.write("case.toml", chain_of(fmt::format("figures = [{{ says = \"it\", key = \"{}\" }}]\n", key)));
+    EXPECT_EQ(run({"check", directory.path().string()}).status, status) << key;
+  }
+  ASSERT_EQ(run({"fit", (directory.path() / "bar").string(), "--quiet"}).status, 0);
+  const json found = json::parse(content_of(directory.path() / "bar/results/fit.json")).flatten();
+  for (const auto& [pointer, value] : found.items()) {
+    std::string key = pointer.substr(1);
+    std::ranges::replace(key, '/', '.');
+    if (!value.is_number()) continue;
+    EXPECT_NO_THROW(require_key_like(fit_json_like("fracture"), "fit.json", key)) << key;
+  }
 }
 
 // What depends on a step that will be done is not called done.

@@ -6,8 +6,12 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <numbers>
+#include <string>
+#include <tuple>
 
 namespace pfdm::this_file {
 namespace {
@@ -143,6 +147,57 @@ TEST_F(Chain, IsCheckedAsFarAsItCanBeRead) {
               AllOf(HasSubstr("step block: run, done"), HasSubstr("model.young_modulus = 1e+07")));
   put("block", "kind = 1");
   EXPECT_EQ(command("check").status, 2);
+}
+
+// Keys that no run writes are refused before anything is computed.
+TEST_F(Chain, RefusesFiguresThatNoRunHas) {
+  for (const auto& [good, bad, message] :
+       {std::tuple("isotropic.young_modulus_Pa", "isotropic.young_modulus_Paa", "did you mean \"young_modulus_Pa\"?"),
+        std::tuple("isotropic.young_modulus_Pa", "stiffness_Pa[6][0]", "(there is: a list of 6)"),
+        std::tuple("isotropic.young_modulus_Pa", "isotropic", "is not a number"),
+        std::tuple("unit = \"Pa\"", "unit = \"Pa\", interval = [\"bounds.reuss_voigt.bulk_modulus_lower_Pa\", \"x\"]",
+                   "homogenized.json has no \"x\"")}) {
+    directory.write("case.toml", replaced(chain, good, bad));
+    for (const char* word : {"check", "run"}) {
+      const Outcome outcome = command(word);
+      EXPECT_EQ(outcome.status, 2) << word;
+      EXPECT_THAT(outcome.err, AllOf(HasSubstr("case.toml:5: [step.figures] "), HasSubstr(message)));
+    }
+  }
+  EXPECT_FALSE(fs::exists(directory.path() / "block/results"));
+  EXPECT_FALSE(fs::exists(directory.results()));
+}
+
+// What is known of the file is what runs write into it.
+TEST_F(Chain, TakesAllNumbersThatARunWrites) {
+  ASSERT_EQ(command("run").status, 0);
+  const auto json = nlohmann::json::parse(content_of(directory.path() / "block/results/homogenized.json")).flatten();
+  int n = 0;
+  std::string figures;
+  for (const auto& [pointer, value] : json.items()) {
+    if (!value.is_number()) continue;
+    std::string key = pointer.substr(1);
+    for (char& c : key)
+      if (c == '/') c = '.';
+    figures += fmt::format("{{ says = \"{}\", file = \"homogenized.json\", key = \"{}\" }},\n", n++, key);
+  }
+  EXPECT_GT(n, 80);
+  directory.write("case.toml", replaced(chain,
+                                        "{ says = \"modulus\", file = \"homogenized.json\", key = "
+                                        "\"isotropic.young_modulus_Pa\", unit = \"Pa\" }",
+                                        figures));
+  fs::remove_all(directory.path() / "block/results");
+  const Outcome outcome = command("check");
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+}
+
+// A later run may give other numbers than are there: a warning.
+TEST_F(Chain, WarnsOfFiguresThatEarlierResultsLack) {
+  ASSERT_EQ(command("run").status, 0);
+  directory.write("case.toml", replaced(chain, "\"linear_resonance_Hz\"", "\"linear_resonanc_Hz\""));
+  const Outcome outcome = command("check");
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, AllOf(HasSubstr("warning: "), HasSubstr("of the results that are there")));
 }
 
 struct WrongChain {

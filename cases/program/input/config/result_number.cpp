@@ -23,6 +23,7 @@ struct Reference {
   std::string key;  // as in "stiffness_Pa[0][0]"
   std::optional<std::string> unit{};
   bool may_be_null = false;
+  bool like = false;  // the file stands for others of its kind
 };
 
 const TomlValue* entry_of(const TomlTable& table, std::string_view key) {
@@ -54,13 +55,16 @@ std::vector<std::string> names_in(const Json& json) {
   return names;
 }
 
+bool is_index(const std::string& step) {
+  return std::ranges::all_of(step, [](char c) { return c >= '0' && c <= '9'; }) && step.size() < 9;
+}
+
 const Json* next(const Json& here, const std::string& step) {
   if (here.is_object()) {
     const auto found = here.find(step);
     return found != here.end() ? &*found : nullptr;
   }
-  const bool is_number = std::ranges::all_of(step, [](char c) { return c >= '0' && c <= '9'; }) && step.size() < 9;
-  if (!here.is_array() || !is_number) return nullptr;
+  if (!here.is_array() || !is_index(step)) return nullptr;
   const auto i = static_cast<std::size_t>(std::stoi(step));
   return i < here.size() ? &here[i] : nullptr;
 }
@@ -68,7 +72,9 @@ const Json* next(const Json& here, const std::string& step) {
 double number_at(const Json& root, const Reference& reference) {
   const Json* here = &root;
   for (const std::string& step : steps_of(reference.key)) {
-    const Json* const there = next(*here, step);
+    if (reference.like && here->is_structured() && here->empty()) return 0.0;
+    const bool is_any = reference.like && here->is_array() && here->size() == 1;
+    const Json* const there = next(*here, is_any && is_index(step) ? "0" : step);
     if (there == nullptr) {
       const std::vector<std::string> names = names_in(*here);
       const std::string there_is = here->is_array() ? fmt::format("a list of {}", here->size())
@@ -135,6 +141,10 @@ double result_number(const TomlValue& value, const fs::path& case_directory, con
 
 double number_in_results(const fs::path& folder, const std::string& file, const std::string& key) {
   return number_in_file({.from = file, .key = key, .unit = {}, .may_be_null = true}, folder);
+}
+
+void require_key_like(const std::string& like, const std::string& file, const std::string& key) {
+  number_at(parse_json(like), {.from = file, .key = key, .unit = {}, .may_be_null = true, .like = true});
 }
 
 std::string in_names(std::string_view unit) {

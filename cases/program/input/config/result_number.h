@@ -26,6 +26,10 @@ double result_number(const TomlValue& value, const std::filesystem::path& case_d
 /// withheld. Throws InputError likewise.
 double number_in_results(const std::filesystem::path& folder, const std::string& file, const std::string& key);
 
+/// Throws InputError, likewise, for a key that no such file has: `like` is the text of one with all that it may hold. A
+/// list with one entry may be longer, and what is empty may hold anything.
+void require_key_like(const std::string& like, const std::string& file, const std::string& key);
+
 /// A unit as it stands in names of columns and of results: "J_per_m2" of "J/m^2".
 std::string in_names(std::string_view unit);
 
