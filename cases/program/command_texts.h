@@ -1,6 +1,8 @@
 #pragma once
 // What pfdm help says of each command.
 
+#include <string_view>
+
 namespace pfdm {
 
 inline constexpr const char* exit_statuses =
@@ -75,5 +77,14 @@ inline constexpr CommandText other_commands[] = {
     {"test", "Run the project's tests (through the launcher, ./pfdm test)",
      "The tests write to a temporary directory."},
 };
+
+/// "" for what is no command.
+inline const char* writes_of(std::string_view command) {
+  for (const CommandText& text : case_commands)
+    if (text.name == command) return text.writes;
+  for (const CommandText& text : other_commands)
+    if (text.name == command) return text.writes;
+  return "";
+}
 
 }  // namespace pfdm

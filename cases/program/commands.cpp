@@ -176,6 +176,7 @@ void Parser::add_other_options() {
   CLI::App& help = command("help");
   help.add_option("COMMAND", line.case_directory, "the command, or a key, as toughness or materials.poisson_ratio")
       ->type_name("");
+  help.add_flag("--man", line.man, "print the manual page pfdm.1");
   help.add_flag("--schema", line.schema, "print the JSON schema of case.toml, for editors");
   help.add_option("--reference", line.reference, "write the reference of keys to this folder, a page for each table")
       ->type_name("DIR");
@@ -242,6 +243,8 @@ CommandWords::Option words_of(const CLI::Option& option, const std::vector<std::
   if (option.nonpositional())
     words = {.name = "--" + option.get_lnames().front(),
              .value = option.get_items_expected_max() > 0 ? option.get_type_name() : ""};
+  words.meaning = option.get_description();
+  if (!option.get_snames().empty()) words.short_name = "-" + option.get_snames().front();
   if (words.value == "COMMAND") words.choices = commands;
   if (words.value == "SHELL") words.choices = {"bash", "zsh"};
   if (words.value == "FORMAT") words.choices = names_of_export_formats();
@@ -269,7 +272,7 @@ std::optional<CommandLine> read_command_line(const std::vector<std::string>& arg
   if (line.cases.size() == 1) line.case_directory = line.cases.front();
   if (line.sensitivity.method == "direct" && app.get_subcommands().front()->count("--step") > 0)
     throw InputError("sensitivity: --step is that of differences; --method direct takes none");
-  if (line.command != "help" || line.schema || !line.reference.empty()) return line;
+  if (line.command != "help" || line.man || line.schema || !line.reference.empty()) return line;
   if (line.case_directory.empty()) return read_command_line({"--help"}, out);
   if (is_command(line.case_directory, app)) return read_command_line({line.case_directory, "--help"}, out);
   line.key = line.case_directory;
@@ -286,7 +289,7 @@ std::vector<CommandWords> command_words() {
   const std::vector<std::string> names = names_of_commands(parser.app);
   std::vector<CommandWords> commands;
   for (const CLI::App* command : parser.app.get_subcommands({})) {
-    commands.push_back({command->get_name(), command->get_description(), {}});
+    commands.push_back({command->get_name(), command->get_description(), writes_of(command->get_name()), {}});
     for (const CLI::Option* option : command->get_options())
       if (!option->get_group().empty()) commands.back().options.push_back(words_of(*option, names));
   }

@@ -37,6 +37,7 @@ struct CommandLine {
   std::vector<std::string> records{};     ///< of init: CSV files of its test
   std::string shell;                      ///< of completion
   bool schema = false;                    ///< of help
+  bool man = false;                       ///< of help: the manual page
   std::string reference;                  ///< of help: a folder for its pages
   std::string key;                        ///< of help: no command, so a key of case.toml
 };
@@ -47,15 +48,18 @@ std::optional<CommandLine> read_command_line(const std::vector<std::string>& arg
 /// That there is no such command, and what was meant.
 std::string unknown_command(const std::string& word);
 
-/// What may be typed, for completion.
+/// What may be typed, for completion and the manual page.
 struct CommandWords {
   struct Option {
     std::string name;                    ///< "--threads"; empty: a word in its place
     std::string value;                   ///< what it takes, as "N", "DIR" or "CASE"; empty: nothing
     std::vector<std::string> choices{};  ///< all values there are, where they are known
+    std::string short_name{};            ///< "-o"
+    std::string meaning{};               ///< what help says of it
   };
   std::string name;
   std::string description;
+  std::string writes;  ///< what it writes and where
   std::vector<Option> options;
 };
 std::vector<CommandWords> command_words();

@@ -6,6 +6,7 @@
 #include "cases/program/input/case_files/kept_case.h"
 #include "cases/program/kinds.h"
 #include "cases/program/listing.h"
+#include "cases/program/manual_page.h"
 #include "cases/program/new_case.h"
 #include "cases/program/reference/key_help.h"
 #include "cases/program/reference/key_reference.h"
@@ -240,6 +241,10 @@ void do_command(const CommandLine& line, std::ostream& out, std::ostream& err, b
   if (line.command == "test")
     throw InputError("the tests are built and run by the launcher at the root of the checkout: ./pfdm test");
   if (line.command == "init") return do_init(line, out);
+  if (line.man) {
+    out << manual_page(command_words(), PFDM_VERSION);
+    return;
+  }
   if (line.command == "help") return line.key.empty() ? write_schema(line, out) : help_on(line.key, out);
   if (line.command == "completion") {
     out << completion_script(line.shell, command_words());

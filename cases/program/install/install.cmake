@@ -39,6 +39,11 @@ foreach(shell bash zsh)
   install(FILES ${script} DESTINATION ${place_${shell}} COMPONENT program)
 endforeach()
 
+install(
+  CODE "execute_process(COMMAND $<TARGET_FILE:pfdm> help --man OUTPUT_FILE ${PROJECT_BINARY_DIR}/pfdm.1 COMMAND_ERROR_IS_FATAL ANY)"
+  COMPONENT program)
+install(FILES ${PROJECT_BINARY_DIR}/pfdm.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT program)
+
 set(libraries options physics mesh solver postproc)
 foreach(room parallel linear scalar heat momentum dynamics homogenization fracture calibration point vibration)
   list(APPEND libraries solver_${room})
