@@ -2,6 +2,7 @@
 
 #include "cases/program/input/case_files/case_file.h"
 #include "cases/program/vibration/mass_material_case.h"
+#include "tests/cases/page_data.h"
 #include "tests/cases/soft_sample.h"
 #include "tests/cases/temporary_case.h"
 
@@ -14,6 +15,7 @@
 #include <filesystem>
 #include <sstream>
 #include <string>
+#include <utility>
 
 namespace pfdm::this_file {
 namespace {
@@ -71,6 +73,13 @@ TEST(MassMaterialProgram, FitsOgdensModelToTheStiffness) {
   EXPECT_LT(ogden["relative_misfit"].get<double>(), 0.01);
   EXPECT_GT(ogden["largest_displacement_m"].get<double>(), 1e-3);
   EXPECT_LT(ogden["largest_displacement_m"].get<double>(), 0.02);
+  ASSERT_EQ(run({"report", directory.path().string()}).status, 0);
+  const json figures = data_of_page(content_of(directory.results() / "report" / "index.html"))["figures"];
+  const std::pair<const char*, const char*> shown[] = {{"k1", "kN/m"}, {"k2", "MN/m²"}, {"k3", "MN/m³"}};
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(figures[i]["label"], shown[i].first);
+    EXPECT_TRUE(figures[i]["value"].get<std::string>().ends_with(shown[i].second)) << figures[i];
+  }
   const std::string no_sample = replaced(replaced(soft_case(), "replicates = 50", "ogden_terms = 2"),
                                          "[sample]\nlength = \"76.2 mm\"\narea = \"45.6 cm^2\"\n", "");
   const TemporaryCase without(no_sample);
