@@ -188,9 +188,9 @@ std::vector<Vector> pack_spheres(const SpherePacking& packing, RandomNumbers& ra
     return spheres.centres();
   }
   throw InputError(fmt::format(
-      "{} spheres with gaps of {} found no room: at their volume fraction of {:.4f} (of the spheres around the corners "
-      "of their surfaces, with their layers) they would have to be {:.2f} % smaller; take a lower fraction or gap, "
-      "finer surfaces, a wider distribution of diameters, or another seed",
+      "{} spheres with gaps of {} found no room: at their volume fraction of {:.4f} (around the corners of their "
+      "surfaces, with layers) they would have to be {:.2f} % smaller; take a lower fraction or gap, finer surfaces, a "
+      "wider distribution of diameters, or another seed",
       packing.radii.size(), quantity_text(packing.gap, "m"), volume_fraction(packing), 100.0 * (1.0 - best)));
 }
 

@@ -67,9 +67,9 @@ MandelMatrix orthotropic_stiffness(const OrthotropicConstants& c) {
     const double nu21 = c.nu12 * c.E2 / c.E1, nu31 = c.nu13 * c.E3 / c.E1, nu32 = c.nu23 * c.E3 / c.E2;
     const double determinant = 1.0 - c.nu12 * nu21 - c.nu23 * nu32 - c.nu13 * nu31 - 2.0 * nu21 * nu32 * c.nu13;
     throw InputError(fmt::format(
-        "the elastic energy of these constants is not positive for every strain: the moduli must be positive, "
-        "1 - nu12 nu21 = {:.4g}, 1 - nu13 nu31 = {:.4g}, 1 - nu23 nu32 = {:.4g} and 1 - nu12 nu21 - nu23 nu32 - nu13 "
-        "nu31 - 2 nu21 nu32 nu13 = {:.4g} too (nu21 = nu12 E2/E1 ...)",
+        "the elastic energy of these constants is not positive for every strain: the moduli must be, as 1 - nu12 nu21 "
+        "= {:.4g}, 1 - nu13 nu31 = {:.4g}, 1 - nu23 nu32 = {:.4g}, and 1 less these products and 2 nu21 nu32 nu13 = "
+        "{:.4g} (nu21 = nu12 E2/E1 ...)",
         1.0 - c.nu12 * nu21, 1.0 - c.nu13 * nu31, 1.0 - c.nu23 * nu32, determinant));
   }
   return S.inverse();

@@ -63,6 +63,7 @@ bool is_result(const fs::path& path) {
   if (name == "checkpoint.bin") return head_of(path).starts_with("PFDMCKPT");
   if (name == "case.toml") return head_of(path).starts_with("# Kept by pfdm ");
   if (name.extension() == ".log") return begins_a_log(head_of(path));
+  if (path.parent_path().filename() == "cohesive_law") return head_of(path).find("pfdm ") != std::string::npos;
   return name.extension() == ".json" && head_of(path).find("\"case_hash\": \"") != std::string::npos;
 }
 
