@@ -20,7 +20,7 @@ import judge
 REPOSITORY = Path(__file__).resolve().parents[3]
 GOOD = ("bar_at2", "endochronic_uniaxial", "endochronic_calibration", "prony_calibration", "plate_ambient", "plate_fit",
         "htpb_soft_sweep", "bar_fit", "cohesive_dcb", "chain", "composite_stiffness", "glass_bead_quick", "nine_dcb",
-        "surfing_crack")
+        "surfing_crack", "hot_spot", "fatigue_crack", "bar_jump_fit", "tear_rates")
 EARLIER = ("summary.json", "force_displacement.csv", "checkpoint.bin", "fit.json", ".pfdm")
 
 
