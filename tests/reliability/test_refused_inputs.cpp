@@ -42,7 +42,7 @@ TEST_P(RefusedInput, GetsOneMessage) {
   EXPECT_THAT(outcome.err, HasSubstr(input.words));
   constexpr std::size_t longest = 300;
   std::istringstream lines(outcome.err);
-  Index n_lines = 0;
+  int n_lines = 0;
   for (std::string line; std::getline(lines, line); ++n_lines)
     EXPECT_LE(line.size(), longest + directory.path().string().size()) << line;
   EXPECT_LE(n_lines, input.status == 2 ? 1 : 2) << outcome.err;  // of a computation, with what may help
