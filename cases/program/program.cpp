@@ -279,7 +279,7 @@ int run_program(const std::vector<std::string>& arguments, std::ostream& out, st
     say_error(error.what());
     return input_wrong;
   } catch (const ComputationError& error) {
-    for (const std::string& line : failure_lines(error.what())) err << "pfdm: " << line << '\n';
+    err << "pfdm: " << message_text(error.what()) << '\n';  // with all advice
   } catch (const std::bad_alloc&) {
     say_error("there is not enough memory; pfdm check says how much a fracture case needs");
   } catch (const std::filesystem::filesystem_error& error) {

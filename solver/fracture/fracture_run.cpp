@@ -97,11 +97,10 @@ struct FractureRun::Parts {
     const std::string words =
         model.is_finite_strain()
             ? finite_stop(mesh, model, settings, staggered.momentum().balance(), trial.damage, outcome)
-            : what_changes(mesh, settings, outcome) + "; " + what_to_try(settings, outcome, remedies(trial.load));
+            : first_change(mesh, settings, outcome) + "; " + what_to_try(settings, outcome, remedies(trial.load));
     throw NoConvergence(
-        fmt::format("step {} at load {:.6g} did not converge with the smallest increment ({:.3g} of the load, "
-                    "loading.minimum_increment) in {} iterations: {}",
-                    trial.step, trial.load, loading.minimum_increment, outcome.iterations, words));
+        fmt::format("step {} at load {:.6g} did not converge with loading.minimum_increment = {:.3g}: {}", trial.step,
+                    trial.load, loading.minimum_increment, words));
   }
 
   Trial attempt(const FractureState& state, double planned, const IterationWatch& watch) {

@@ -38,12 +38,12 @@ std::string what_closes(const Mesh& mesh, const StaggeredSettings& settings, con
   return fmt::format("{}", fmt::join(left, ", "));
 }
 
-}  // namespace
-
-std::string what_changes(const Mesh& mesh, const StaggeredSettings& settings, const StepOutcome& outcome) {
+// At least one.
+std::vector<std::string> criteria_left(const Mesh& mesh, const StaggeredSettings& settings,
+                                       const StepOutcome& outcome) {
   if (outcome.stuck)
-    return fmt::format("the linear solver came no closer to balance (residual {:.1e})", outcome.residual);
-  if (outcome.failed) return "no displacements were found that balance the forces";
+    return {fmt::format("the linear solver came no closer to balance (residual {:.1e})", outcome.residual)};
+  if (outcome.failed) return {"no displacements were found that balance the forces"};
   std::vector<std::string> left;
   const Vector& x = mesh.cell_centre[outcome.rest.cell];
   if (outcome.rest.damage >= settings.damage_tolerance && !outcome.settled)
@@ -59,7 +59,18 @@ std::string what_changes(const Mesh& mesh, const StaggeredSettings& settings, co
   if (outcome.residual > settings.equilibrium_tolerance)
     left.push_back(fmt::format("the residual of the momentum balance is {:.1e} (solver.equilibrium_tolerance = {:g})",
                                outcome.residual, settings.equilibrium_tolerance));
-  return left.empty() ? "the last iteration has not settled" : fmt::format("{}", fmt::join(left, ", "));
+  if (left.empty()) left.emplace_back("the last iteration has not settled");
+  return left;
+}
+
+}  // namespace
+
+std::string what_changes(const Mesh& mesh, const StaggeredSettings& settings, const StepOutcome& outcome) {
+  return fmt::format("{}", fmt::join(criteria_left(mesh, settings, outcome), ", "));
+}
+
+std::string first_change(const Mesh& mesh, const StaggeredSettings& settings, const StepOutcome& outcome) {
+  return criteria_left(mesh, settings, outcome).front();
 }
 
 std::string what_is_unbalanced(const Mesh& mesh, const Unknowns& unknowns, const StaggeredSettings& settings,
@@ -116,7 +127,7 @@ Remedies remedies_of(const Mesh& mesh, const FractureModel& model, const Unknown
 std::string what_to_try(const StaggeredSettings& settings, const StepOutcome& outcome, const Remedies& remedies) {
   if (outcome.stuck) {
     const bool is_direct = settings.linear != nullptr && settings.linear->name == "direct";
-    return fmt::format("what may help: {}better cells (pfdm mesh), a larger fracture.residual_stiffness",
+    return fmt::format("may help: {}better cells (pfdm mesh), a larger fracture.residual_stiffness",
                        is_direct ? "" : "solver.linear = \"direct\", ");
   }
   if (outcome.settled)
@@ -125,17 +136,14 @@ std::string what_to_try(const StaggeredSettings& settings, const StepOutcome& ou
   if (outcome.failed) {
     ways.emplace_back("a smaller loading.minimum_increment");
   } else if (!outcome.circles) {
-    ways.push_back(fmt::format("more than {} iterations (solver.maximum_iterations)", settings.maximum_iterations));
+    ways.push_back(fmt::format("solver.maximum_iterations above {}", settings.maximum_iterations));
   } else {
     ways.emplace_back("smaller cells there");
     ways.emplace_back("larger tolerances");
   }
-  if (remedies.viscosity) ways.emplace_back("a viscosity (fracture.viscosity, with loading.duration)");
-  if (remedies.dissipation_control)
-    ways.emplace_back(
-        "dissipation control (loading.maximum_dissipation) or prescribed displacements in place of tractions");
-  return fmt::format("{}may help: {}",
-                     outcome.circles ? "its iterations go in circles, more of them do not help; what " : "what ",
+  if (remedies.viscosity) ways.emplace_back("fracture.viscosity");
+  if (remedies.dissipation_control) ways.emplace_back("loading.maximum_dissipation");
+  return fmt::format("{}may help: {}", outcome.circles ? "more iterations do not help, they go in circles; " : "",
                      fmt::join(ways, ", "));
 }
 

@@ -12,6 +12,9 @@ namespace pfdm {
 /// 3e-04 ...".
 std::string what_changes(const Mesh& mesh, const StaggeredSettings& settings, const StepOutcome& outcome);
 
+/// The first of them alone, for a message that has to be short.
+std::string first_change(const Mesh& mesh, const StaggeredSettings& settings, const StepOutcome& outcome);
+
 /// Linear solves of a balance until now, and its relative residual.
 struct BalanceSoFar {
   Index solves = 0;

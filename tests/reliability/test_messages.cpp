@@ -11,7 +11,6 @@
 #include <algorithm>
 #include <filesystem>
 #include <string>
-#include <vector>
 
 namespace pfdm::this_file {
 namespace {
@@ -78,24 +77,6 @@ TEST(ErrorText, LeavesOutTheMiddle) {
   EXPECT_THAT(text, HasSubstr(" ... "));
   EXPECT_THAT(text, testing::EndsWith(back));
   EXPECT_EQ(error_text(front + back), front + back);
-}
-
-TEST(FailureLines, KeepAllWordsInShortLines) {
-  const std::string cause = "step 3 did not converge: the damage of cell 7 changes by 1.0e-03 an iteration";
-  EXPECT_THAT(failure_lines(cause + "; what may help: more"), testing::ElementsAre(cause + "; what may help: more"));
-  std::string all = cause;
-  for (int i = 0; i < 12; ++i)
-    all += fmt::format("{}what may help: way {} of all that there are", i % 2 == 0 ? "; " : ". ", i);
-  std::size_t sum = 0;
-  const std::vector<std::string> lines = failure_lines(all);
-  for (const std::string& line : lines) {
-    EXPECT_LE(line.size(), 290U);
-    sum += line.size();
-  }
-  EXPECT_GE(lines.size(), 2U);
-  EXPECT_EQ(sum + 2 * (lines.size() - 1), all.size());
-  for (const std::string& line : failure_lines(std::string(1000, 'x') + " " + std::string(1000, 'y')))
-    EXPECT_LE(line.size(), 290U);
 }
 
 TEST(Messages, OfAFigureWithALongKeyAreShort) {

@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <utility>
 
 namespace pfdm {
 namespace {
@@ -122,19 +121,6 @@ std::string with_short_middle(const std::string& text) {
   return fmt::format("{}{}{}", text.substr(0, first), gap, text.substr(end + 1));
 }
 
-/// Where the first line of a text ends that need not be longer than allowed: after a clause, or else after a comma.
-std::size_t end_of_line(std::string_view text) {
-  const std::size_t most = longest + size_of_folders(text);
-  if (text.size() <= most) return text.size();
-  for (const auto& [one, other] : {std::pair{"; ", ". "}, std::pair{", ", ": "}}) {
-    std::size_t end = 0;
-    for (const std::string_view mark : {one, other})
-      if (const std::size_t at = text.rfind(mark, most); at != std::string_view::npos) end = std::max(end, at);
-    if (end > 0) return end;
-  }
-  return text.size();
-}
-
 }  // namespace
 
 std::string message_text(std::string_view message) {
@@ -148,15 +134,5 @@ std::string message_text(std::string_view message) {
 }
 
 std::string error_text(std::string_view message) { return with_short_middle(message_text(message)); }
-
-std::vector<std::string> failure_lines(std::string_view message) {
-  std::vector<std::string> lines;
-  for (std::string rest = message_text(message); !rest.empty();) {
-    const std::size_t end = end_of_line(rest);
-    lines.push_back(with_short_middle(rest.substr(0, end)));
-    rest.erase(0, std::min(end + 2, rest.size()));
-  }
-  return lines;
-}
 
 }  // namespace pfdm

@@ -3,7 +3,6 @@
 
 #include <string>
 #include <string_view>
-#include <vector>
 
 namespace pfdm {
 
@@ -16,9 +15,5 @@ std::string message_text(std::string_view message);
 
 /// Likewise, and the middle of what is still longer than that is left out.
 std::string error_text(std::string_view message);
-
-/// What a computation failed of, with advice, as lines none of which is longer than that: broken at "; " and ". ",
-/// or else at ", " and ": ".
-std::vector<std::string> failure_lines(std::string_view message);
 
 }  // namespace pfdm
