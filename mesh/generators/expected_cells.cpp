@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <limits>
+#include <vector>
 
 namespace pfdm {
 
@@ -17,17 +18,32 @@ void require_memory_for(double cells, const std::string& what) {
   require_memory(bytes_of_a_cell * cells, fmt::format("{} of about {:.3g} cells", what, cells));
 }
 
+// Where a size is far below the distance of the points, they are taken closer: a single one may lie in a small sphere.
 double expected_tetrahedra(const SizeField& size, const Vector& lower, const Vector& upper) {
-  constexpr int n = 20;                          // points along each edge of the box
-  const double regular = std::sqrt(2.0) / 12.0;  // volume of a tetrahedron of unit edge
-  const Vector step = (upper - lower) / n;
+  constexpr double regular = 0.1178;  // volume of a tetrahedron of unit edge, sqrt(2)/12
+  constexpr std::size_t most_looked_at = 200;
+  const auto each_part = [](const Vector& from, const Vector& edges, int n, const auto& see) {
+    const Vector step = edges / n;
+    for (int i = 0; i < n; ++i)
+      for (int j = 0; j < n; ++j)
+        for (int k = 0; k < n; ++k) see(Vector(from + step.cwiseProduct(Vector(i, j, k))), step);
+  };
+  const auto cells_in = [&](const Vector& from, const Vector& edges) {
+    return edges.prod() / (regular * std::pow(size(from + 0.5 * edges), 3));
+  };
   double cells = 0.0;
-  for (int i = 0; i < n; ++i)
-    for (int j = 0; j < n; ++j)
-      for (int k = 0; k < n; ++k) {
-        const Vector at = lower + step.cwiseProduct(Vector(i + 0.5, j + 0.5, k + 0.5));
-        cells += step.prod() / (regular * std::pow(size(at), 3));
-      }
+  std::vector<Vector> fine;  // lower corners
+  Vector edges = Vector::Zero();
+  each_part(lower, upper - lower, 20, [&](const Vector& from, const Vector& step) {
+    edges = step;
+    if (size(from + 0.5 * step) < 0.25 * step.minCoeff())
+      fine.push_back(from);
+    else
+      cells += cells_in(from, step);
+  });
+  const int closer = fine.size() <= most_looked_at ? 10 : 1;
+  for (const Vector& from : fine)
+    each_part(from, edges, closer, [&](const Vector& at, const Vector& step) { cells += cells_in(at, step); });
   return cells;
 }
 

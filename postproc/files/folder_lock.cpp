@@ -86,6 +86,9 @@ void require_ours(const fs::path& folder) {
                       entry.path().string()));
     other = std::min(other.value_or("\xff"), entry.path().filename().string());
   }
+  if (other && !is_ours(folder) && fs::is_regular_file(folder / "case.toml"))
+    throw InputError(
+        fmt::format("{} is the folder of a case: choose another one with --output, as results in it", folder.string()));
   if (other && !is_ours(folder))
     throw InputError(
         fmt::format("{} holds files that are not of pfdm, as \"{}\": choose another folder with --output; an empty "

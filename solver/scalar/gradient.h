@@ -1,14 +1,14 @@
 #pragma once
 // Cell gradients by weighted least squares, exact for linear fields: grad u = sum_j (u_j - u_P) (x) c_j.
 //
-// Samples are neighbours of the same zone and the nodes on the cell's faces. Tetrahedra use two rings of face neighbours
-// with weight |d|^-2, as do on request the triangles of plane meshes, and flat ones in plane layers of prisms. All other
-// cells use one ring with |d|^-3: two rings on flat curved prisms give wrong stresses. With one ring tetrahedra do not
-// converge, and elasticity on flat triangles is indefinite. The weight of a neighbour is multiplied by min(1, g_j/g_P),
-// so that a broken cell does not bridge into a sound one; in prisms g_j is that of the cell between, where this is less,
-// so that nothing is sampled across a crack. For a polyhedron the factor is min(g_P/g_j, g_j/g_P), small for
-// any neighbour of very different damage: its jump term, weaker than the averaged tractions (momentum.h), does not
-// cancel a wrong gradient of the broken cell either.
+// Samples are neighbours of the same zone and the nodes on the cell's faces. Tetrahedra use two rings of face
+// neighbours with weight |d|^-2, as do on request the triangles of plane meshes, and flat ones in plane layers of
+// prisms. All other cells use one ring with |d|^-3: two rings on flat curved prisms give wrong stresses. With one ring
+// tetrahedra do not converge, and elasticity on flat triangles is indefinite. The weight of a neighbour is multiplied
+// by min(1, g_j/g_P), so that a broken cell does not bridge into a sound one; in prisms g_j is that of the cell
+// between, where this is less, so that little is sampled across a crack. For a polyhedron the factor is min(g_P/g_j,
+// g_j/g_P), small for any neighbour of very different damage: its jump term, weaker than the averaged tractions
+// (momentum.h), does not cancel a wrong gradient of the broken cell either.
 
 #include "solver/scalar/gradient_samples.h"
 

@@ -106,6 +106,7 @@ DisplayUnit unit_of_estimate(double value, const std::string& unit) {
 
 /// Without the unit that a name may end with: "k3" of "k3_N_per_m3".
 std::string symbol_of(const std::string& name, const std::string& unit) {
+  if (unit == "1") return name;
   std::string end;
   for (const char c : unit) {
     if (c == '/')

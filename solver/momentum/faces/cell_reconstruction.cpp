@@ -1,9 +1,20 @@
 #include "solver/momentum/faces/cell_reconstruction.h"
 
 #include "solver/momentum/bending/bending_layers.h"
+#include "solver/momentum/bending/slender_layers.h"
 #include "solver/parallel.h"
 
 namespace pfdm {
+namespace {
+
+// Layers that bend are known by the errors of one ring (bending.md); two rings would be far stiffer in bending.
+WideTriangles triangles_of(const FaceSkeleton& skeleton) {
+  const Unknowns& unknowns = skeleton.unknowns;
+  const bool is_plane = !unknowns.plane_normal.isZero() && !unknowns.is_axisymmetric();
+  return is_plane && !is_slender_body(skeleton.mesh, unknowns) ? WideTriangles::in_plane : WideTriangles::unstable;
+}
+
+}  // namespace
 
 CellReconstruction::CellReconstruction(const FaceSkeleton& skeleton)
     : skeleton_(skeleton),
@@ -11,7 +22,7 @@ CellReconstruction::CellReconstruction(const FaceSkeleton& skeleton)
                                 .node_of_face = skeleton.unknowns.node_of_face,
                                 .neighbour_node = skeleton.unknowns.neighbour_node,
                                 .plane_normal = skeleton.unknowns.plane_normal,
-                                .wide_triangles = true,
+                                .wide_triangles = triangles_of(skeleton),
                                 .wanted = {}}),
       cubic_(skeleton.mesh, skeleton.unknowns, skeleton.sides_by_turn()),
       layers_(skeleton.mesh, skeleton.unknowns, skeleton.sides_by_turn(), skeleton.links,

@@ -71,7 +71,9 @@ TEST(IntervalTrial, GoesLessFarWhereAnotherMeetsItsBound) {
 TEST(IntervalTrial, IsNoneWhereAnotherMeetsItsBoundAtOnce) {
   const Trial stopped = trial([](double, double) { return false; }, 0.95);
   ASSERT_TRUE(stopped.doubt);
-  EXPECT_THAT(*stopped.doubt, ::testing::HasSubstr("do not tell material.b and experiment.a apart"));
+  EXPECT_THAT(*stopped.doubt, ::testing::HasSubstr("the interval of experiment.a could not be tried"));
+  EXPECT_THAT(*stopped.doubt, ::testing::HasSubstr("material.b is at its bound"));
+  EXPECT_TRUE(stopped.told.empty());
 }
 
 // The linear model takes b below 0.9; with the estimate itself, 1.03, there is an answer.

@@ -83,14 +83,14 @@ std::size_t count_of(std::string_view text, std::string_view what) {
   return n;
 }
 
-/// The longest list in parentheses, from the bracket to before its end, as "(allowed: a, b, c" or "(there is: a, b, c".
+/// The longest list of what there is, from its bracket to before its end, as "(allowed: a, b, c".
 std::string_view longest_list(std::string_view text) {
   std::string_view longest;
-  for (std::size_t begin = text.find('('); begin != std::string_view::npos; begin = text.find('(', begin + 1)) {
-    const std::string_view list = text.substr(begin, text.find(')', begin) - begin);
-    const bool is_list = list.find(": ") < list.find(", ") && count_of(list, ", ") > 1;
-    if (is_list && list.size() > longest.size()) longest = list;
-  }
+  for (const std::string_view head : {"(allowed: ", "(available: ", "(there is: ", "(there are: "})
+    for (std::size_t begin = text.find(head); begin != std::string_view::npos; begin = text.find(head, begin + 1)) {
+      const std::size_t end = text.find(')', begin);
+      if (end != std::string_view::npos && end - begin > longest.size()) longest = text.substr(begin, end - begin);
+    }
   return longest;
 }
 

@@ -14,17 +14,17 @@ constexpr double reach = 3.0;              // standard errors
 constexpr double least_reach = 2.0;        // likewise, within the bounds of all; less is no trial
 constexpr double share_that_holds = 0.25;  // of the expected growth of the sum of squares: half the stated width
 
-/// Whether, by the linear model, another parameter has met a bound with parameter k at this value. There the residuals
+/// Another parameter that, by the linear model, has met a bound with parameter k at this value. There the residuals
 /// grow because of the bound, not because of the data.
-bool meets_bounds_of_others(const DoneFit& done, std::size_t k, double value) {
+std::optional<std::size_t> at_its_bound(const DoneFit& done, std::size_t k, double value) {
   const std::vector<double> others = others_by_linear_model(done.problem, done.result, k, value);
   for (std::size_t j = 0; j < done.parameters.size(); ++j) {
     if (j == k || done.result.estimates[j].at_bound) continue;
     const FitParameter& p = done.problem.parameters[j];
     const double there = others[j < k ? j : j - 1];
-    if (there <= p.lower || there >= p.upper) return true;
+    if (there <= p.lower || there >= p.upper) return j;
   }
-  return false;
+  return std::nullopt;
 }
 
 /// As far from the estimate as its own bounds leave, to the side that leaves more; nearer, or to the other side, where
@@ -38,8 +38,7 @@ double place_of_trial(const DoneFit& done, std::size_t k) {
   const double side = within(reach) - estimate.value >= estimate.value - within(-reach) ? 1.0 : -1.0;
   for (const double away : {reach, 0.5 * (reach + least_reach)})
     for (const double there : {within(side * away), within(-side * away)})
-      if (std::abs(there - estimate.value) >= least_reach * estimate.standard_error &&
-          !meets_bounds_of_others(done, k, there))
+      if (std::abs(there - estimate.value) >= least_reach * estimate.standard_error && !at_its_bound(done, k, there))
         return there;
   return within(side * reach);
 }
@@ -81,6 +80,11 @@ std::optional<std::string> doubt_of_interval(const DoneFit& done, std::size_t k,
   const double error = estimate.standard_error;
   if (done.parameters.size() < 2 || !(error > 0.0) || !std::isfinite(error)) return std::nullopt;
   const double there = place_of_trial(done, k);
+  const double away = std::abs(there - estimate.value) / error;
+  if (const auto other = at_its_bound(done, k, there))
+    return fmt::format(
+        "the interval of {} could not be tried: with {} {} is at its bound; widen that, or give one of the two",
+        done.parameters[k].name, done.parameters[k].shown(there), done.parameters[*other].name);
   log.say(
       fmt::format("  the others anew with {} = {}", done.parameters[k].short_name(), done.parameters[k].shown(there)));
   FitSettings once = on_grid(from_one_start(done.settings));
@@ -96,8 +100,7 @@ std::optional<std::string> doubt_of_interval(const DoneFit& done, std::size_t k,
   const double n = static_cast<double>(done.result.residuals.size()),
                freedom = n - static_cast<double>(done.parameters.size());
   const double variance = done.problem.noise_is_known ? 1.0 : done.result.sum_of_squares / freedom;
-  const double away = std::abs(there - estimate.value) / error;
-  if (away >= least_reach && !meets_bounds_of_others(done, k, there) &&
+  if (away >= least_reach &&
       growth_of_squares(done.problem, done.result, k, there, *other) > share_that_holds * away * away * variance)
     return std::nullopt;
   return not_told_apart(done, k, there, *other);
