@@ -39,6 +39,12 @@ bool is_above(const Mesh& mesh, Index cell, Index other) {
 
 }  // namespace
 
+GradientSampling::GradientSampling(const Mesh& mesh, const GradientSettings& settings, const std::vector<Vector>& node)
+    : mesh_(mesh), settings_(settings), node_(node), wide_(as_size(mesh.n_cells()), 0) {
+  for (Index c = 0; c < mesh.n_cells(); ++c) wide_[as_size(c)] = mesh.shape[c] == CellShape::tetrahedron ? 1 : 0;
+  if (settings.wide_triangles != WideTriangles::none) widen_prisms();
+}
+
 CellSamples GradientSampling::about(Index cell) const {
   constexpr int most_rings = 5;
   CellSamples found{.wide = wide_[as_size(cell)] != 0};
@@ -54,12 +60,6 @@ CellSamples GradientSampling::about(Index cell) const {
                     cell, at[0], at[1], at[2]));
   found.samples.clear();
   return found;
-}
-
-GradientSampling::GradientSampling(const Mesh& mesh, const GradientSettings& settings, const std::vector<Vector>& node)
-    : mesh_(mesh), settings_(settings), node_(node), wide_(as_size(mesh.n_cells()), 0) {
-  for (Index c = 0; c < mesh.n_cells(); ++c) wide_[as_size(c)] = mesh.shape[c] == CellShape::tetrahedron ? 1 : 0;
-  if (settings.wide_triangles != WideTriangles::none) widen_prisms();
 }
 
 // One ring of flat triangles enlarges differences of its samples, taken to a side, by 0.9 (squares) to 1.4 where

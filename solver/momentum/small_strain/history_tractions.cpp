@@ -9,11 +9,24 @@ namespace {
 struct StressByHistory {
   const CellField<LinearStress>& stress;
   const CellField<IsotropicElasticity>& moduli;
-  Vector operator()(Index cell, const Tensor& G, const Vector& n) const {
-    return to_tensor(stress[cell].C * to_mandel(symmetric_part(G))) * n;
-  }
+  Tensor of_cell(Index cell, const Tensor& G) const { return to_tensor(stress[cell].C * to_mandel(symmetric_part(G))); }
+  Vector operator()(Index cell, const Tensor& G, const Vector& n) const { return of_cell(cell, G) * n; }
   Vector at_side(Index cell, const Tensor& G, const Tensor& at_side, const Vector& n) const {
     return (*this)(cell, G, n) + IsotropicStress{moduli}(cell, at_side - G, n);
+  }
+};
+
+// The same in a sweep over the faces, found once a cell.
+struct SweptStress {
+  const StressByHistory by_history;
+  CellField<Tensor>& of_cells;
+  void see(const CellField<Tensor>& gradients) const {
+    if (of_cells.size() == 0) of_cells = CellField<Tensor>(gradients.size());
+    parallel_for(gradients.size(), [&](Index c) { of_cells[c] = by_history.of_cell(c, gradients[c]); });
+  }
+  Vector operator()(Index cell, const Tensor&, const Vector& n) const { return of_cells[cell] * n; }
+  Vector at_side(Index cell, const Tensor& G, const Tensor& at_side, const Vector& n) const {
+    return of_cells[cell] * n + IsotropicStress{by_history.moduli}(cell, at_side - G, n);
   }
 };
 
@@ -93,7 +106,8 @@ void HistoryTractions::bear_gaps(const HistoryStress& history, const CellField<d
 }
 
 void HistoryTractions::find_linear(const std::vector<Vector>& u, Sweep& sweep) const {
-  sweep_faces(u, static_cast<IsotropicSweep&>(sweep), StressByHistory{stress_, of_stress()});
+  auto& s = static_cast<IsotropicSweep&>(sweep);
+  sweep_faces(u, s, SweptStress{{stress_, of_stress()}, s.stress});
 }
 
 // n leads outwards from P and from sides, into N.

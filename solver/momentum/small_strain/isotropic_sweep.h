@@ -1,5 +1,6 @@
 #pragma once
-// The sweep of IsotropicTractions over the faces, with any function of the stress by the gradient.
+// The sweep of IsotropicTractions over the faces, with any function of the stress by the gradient, which may see the
+// gradients of all cells first.
 
 #include "solver/momentum/small_strain/isotropic_tractions.h"
 #include "solver/parallel.h"
@@ -10,6 +11,7 @@ template <class StressOf>
 void IsotropicTractions::sweep_faces(const std::vector<Vector>& u, IsotropicSweep& s, const StressOf& stress_of) const {
   using momentum_faces::Link, momentum_faces::Side;
   reconstruct(u, s);
+  if constexpr (requires { stress_of.see(s.gradients); }) stress_of.see(s.gradients);
   const Vector& across = plane_normal();
   parallel_for(s.sector_stress.size(), [&](Index c) {
     s.sector_stress[c] = across.dot(stress_of(c, s.gradients[c], across)) + s.pressure.mean(c);

@@ -45,6 +45,7 @@ struct IsotropicSweep : Sweep {
   PressureField pressure;
   std::vector<Tensor> bonded;  // gradients on bonded sides
   std::vector<double> flux;    // by force: u_f.S [m^3]; empty without pressures
+  CellField<Tensor> stress;    // by the cells' gradients [Pa], of bodies with a history; else empty
 };
 
 class IsotropicTractions : public SmallTractions {

@@ -241,6 +241,22 @@ TEST(ParticlesInBox, SizesThatAreNotPositiveAreRefused) {
   EXPECT_THAT(message([](auto& s) { s.particles[0].centre[0] = NAN; }), HasSubstr("particle 1"));
 }
 
+// One of the points at which the size is asked for lies in it: it was taken for 8 million cells.
+TEST(ParticlesInBox, ASmallFineSphereIsNoReasonToRefuse) {
+  const double edge = 1000.0 * micro, radius = 10.0 * micro, fine = 0.5 * micro;
+  const Vector lower = Vector::Zero(), upper = Vector::Constant(edge);
+  for (const double at : {0.5, 0.525}) {
+    const SizeField size({{.centre = Vector::Constant(at * edge),
+                           .radius = radius,
+                           .outer_size = fine,
+                           .core = radius,
+                           .core_size = fine,
+                           .core_limit = fine}},
+                         0.5, 150.0 * micro);
+    EXPECT_LT(expected_tetrahedra(size, lower, upper), 1e6);
+  }
+}
+
 // TetGen would take minutes before it ran out of memory.
 TEST(ParticlesInBox, WithMoreCellsThanMemoryAreRefusedAtOnce) {
   ParticlesInBoxSettings settings = one_bead(2, 0);
