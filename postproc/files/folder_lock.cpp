@@ -86,14 +86,16 @@ void require_ours(const fs::path& folder) {
                       entry.path().string()));
     other = std::min(other.value_or("\xff"), entry.path().filename().string());
   }
-  if (other && !is_ours(folder) && fs::is_regular_file(folder / "case.toml"))
+  if (!other || is_ours(folder)) return;
+  if (fs::is_regular_file(folder / "case.toml"))
     throw InputError(
-        fmt::format("{} is the folder of a case: choose another one with --output, as results in it", folder.string()));
-  if (other && !is_ours(folder))
-    throw InputError(
-        fmt::format("{} holds files that are not of pfdm, as \"{}\": choose another folder with --output; an empty "
-                    "file {} in it says that files may be replaced there",
-                    folder.string(), *other, owned_folder_mark));
+        fmt::format("{} is the folder of a case, and holds files that are not of pfdm: choose another one "
+                    "with --output, as results in it",
+                    folder.string()));
+  throw InputError(fmt::format(
+      "{} holds files that are not of pfdm, as \"{}\": choose another folder with --output; an empty file {} "
+      "in it says that files may be replaced there",
+      folder.string(), *other, owned_folder_mark));
 }
 
 }  // namespace
