@@ -130,7 +130,7 @@ double GradientSampling::largest_rise(Index cell, const std::vector<GradientSamp
   std::vector<Vector> weighted;
   for (const GradientSample& sample : samples) {
     const Vector d = node_[as_size(sample.node)] - here;
-    weighted.push_back(d / std::pow(d.norm(), 3));
+    weighted.emplace_back(d / std::pow(d.norm(), 3));
     moment.noalias() += weighted.back() * d.transpose();
   }
   moment += moment.trace() * settings_.plane_normal * settings_.plane_normal.transpose();
