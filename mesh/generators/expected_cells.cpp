@@ -6,21 +6,19 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <limits>
 #include <vector>
 
 namespace pfdm {
 
 void require_memory_for(double cells, const std::string& what) {
   constexpr double bytes_of_a_cell = 5.7e3;  // of a run, by its three faces; what `check` says
-  if (cells * 24.0 > std::numeric_limits<Index>::max())
+  if (!(cells < most_cells))
     throw InputError(fmt::format("{} would have about {:.3g} cells, too many to number", what, cells));
   require_memory(bytes_of_a_cell * cells, fmt::format("{} of about {:.3g} cells", what, cells));
 }
 
 // Where a size is far below the distance of the points, they are taken closer: a single one may lie in a small sphere.
 double expected_tetrahedra(const SizeField& size, const Vector& lower, const Vector& upper) {
-  constexpr double regular = 0.1178;  // volume of a tetrahedron of unit edge, sqrt(2)/12
   constexpr std::size_t most_looked_at = 200;
   const auto each_part = [](const Vector& from, const Vector& edges, int n, const auto& see) {
     const Vector step = edges / n;
@@ -29,7 +27,7 @@ double expected_tetrahedra(const SizeField& size, const Vector& lower, const Vec
         for (int k = 0; k < n; ++k) see(Vector(from + step.cwiseProduct(Vector(i, j, k))), step);
   };
   const auto cells_in = [&](const Vector& from, const Vector& edges) {
-    return edges.prod() / (regular * std::pow(size(from + 0.5 * edges), 3));
+    return edges.prod() / (regular_volume * std::pow(size(from + 0.5 * edges), 3));
   };
   double cells = 0.0;
   std::vector<Vector> fine;  // lower corners

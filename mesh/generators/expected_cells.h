@@ -3,9 +3,14 @@
 
 #include "mesh/surfaces/size_field.h"
 
+#include <limits>
 #include <string>
 
 namespace pfdm {
+
+inline constexpr double regular_volume = 0.1178;  ///< sqrt(2)/12: a regular tetrahedron of unit edge
+inline constexpr double most_cells =
+    std::numeric_limits<Index>::max() / 24.0;  ///< that can be numbered with what they have
 
 /// Throws InputError if a run on so many cells takes more memory than this machine has, or if they are too many to
 /// number; `what` they are: "the box".

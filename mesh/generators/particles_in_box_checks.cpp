@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 
+#include "mesh/generators/expected_cells.h"
 #include "mesh/surfaces/surface_checks.h"
 #include "physics/error.h"
 #include "physics/quantity_text.h"
@@ -60,10 +60,9 @@ double area_of_sides(const Vector& extent) {
 
 /// Of the box; the cells that particles add are limited by the triangles of their surfaces.
 void check_number_of_cells(const ParticlesInBoxSettings& settings) {
-  constexpr double regular = 0.1178, most = std::numeric_limits<Index>::max() / 24.0;
   const Vector extent = settings.upper - settings.lower;
-  const double edge = settings.size_far, cells = extent.prod() / (regular * edge * edge * edge);
-  if (!(cells < most))
+  const double edge = settings.size_far, cells = extent.prod() / (regular_volume * edge * edge * edge);
+  if (!(cells < most_cells))
     throw InputError(fmt::format("the box would have about {:.3g} tetrahedra of {} (size_far), too many to number",
                                  cells, quantity_text(edge, "m", 3)));
   require_few_triangles("the box", area_of_sides(extent), settings.boundary_size > 0.0 ? settings.boundary_size : edge);

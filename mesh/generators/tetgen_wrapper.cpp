@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "mesh/bounding_box.h"
+#include "mesh/generators/expected_cells.h"
 #include "mesh/generators/lifted_points.h"
 #include "physics/error.h"
 #include "physics/system/packed_bytes.h"
@@ -18,8 +19,7 @@
 namespace pfdm {
 namespace {
 
-constexpr double regular_volume = 0.1178;  // sqrt(2)/12: a regular tetrahedron of unit edge
-constexpr double volume_tolerance = 1.3;   // over the regular one, before a cell is split
+constexpr double volume_tolerance = 1.3;  // over the regular one, before a cell is split
 
 // TetGen's tolerances suppose coordinates of order one; a power of two scales them without rounding.
 class Scaling {

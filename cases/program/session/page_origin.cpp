@@ -1,5 +1,6 @@
 #include "cases/program/session/page_origin.h"
 
+#include "cases/program/input/config/result_number.h"
 #include "cases/program/session/fit_verdict.h"
 #include "cases/program/session/terminal/external_program.h"
 #include "physics/error.h"
@@ -105,18 +106,10 @@ DisplayUnit unit_of_estimate(double value, const std::string& unit) {
 }
 
 /// Without the unit that a name may end with: "k3" of "k3_N_per_m3".
-std::string symbol_of(const std::string& name, const std::string& unit) {
+std::string symbol_of(const std::string& name, std::string unit) {
   if (unit == "1") return name;
-  std::string end;
-  for (const char c : unit) {
-    if (c == '/')
-      end += "_per_";
-    else if (c == ' ')
-      end += '_';
-    else if (c != '^' && c != '(' && c != ')')
-      end += c;
-  }
-  end = end.starts_with("1_per_") ? end.substr(1) : "_" + end;
+  std::erase_if(unit, [](char c) { return c == '(' || c == ')'; });
+  const std::string in_name = in_names(unit), end = in_name.starts_with("1_per_") ? in_name.substr(1) : "_" + in_name;
   return name.size() > end.size() && name.ends_with(end) ? name.substr(0, name.size() - end.size()) : name;
 }
 
