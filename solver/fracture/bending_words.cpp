@@ -17,14 +17,10 @@ namespace {
 constexpr double bearable = 0.03;
 constexpr double layers_for_it = 10.0;  // even ones of one material: (3 - 2/n)/n^2 is then 2.8 %
 
-// Why gradients are of one ring wherever layers bend; empty where lines of cells or cubics may serve.
-std::string reason(const FractureModel& model) {
-  if (model.is_finite_strain()) return "";
-  if (model.is_anisotropic()) return "elasticity that depends on the direction";
-  if (!model.is_isotropic()) return "a split without secant moduli";
-  if (std::ranges::any_of(model.regions, [](const RegionModel& region) { return region.material != nullptr; }))
-    return "a material with a history";
-  return "";
+// Whether plane meshes fit cubics; else they have lines of cells, and prisms gradients of one ring.
+bool fits_cubics(const FractureModel& model) {
+  return model.is_isotropic() && !model.is_finite_strain() && !model.has_eigenstrain() &&
+         std::ranges::all_of(model.regions, [](const RegionModel& region) { return region.material == nullptr; });
 }
 
 std::string length_words(double metres, int digits) { return quantity_text(metres, "m", digits); }
@@ -43,13 +39,13 @@ std::string words_on_thin(const BendingError& worst) {
 }
 
 // Words on the worst error, its reason and its remedy.
-std::string words_on(const BendingError& worst, const std::string& why, bool is_about_axis) {
+std::string words_on(const BendingError& worst, bool is_about_axis) {
   const BendingLayers& at = worst.layers;
   const double nu = worst.poisson_ratio;
   if (worst.by == BendBy::one_ring)
     return fmt::format(
-        "too {} ({}; {}). For {:.0f} %: {:.0f} layers of cells up to {} long ([mesh])",
-        worst.error > 0.0 ? "high" : "low", why,
+        "too {} (one cell across; {}). For {:.0f} %: {:.0f} layers of cells up to {} long ([mesh])",
+        worst.error > 0.0 ? "high" : "low",
         is_about_axis ? fmt::format("{:.0f} % too low by the number of layers, {:.0f} % too high by long "
                                     "cells as far as they bend along the radius",
                                     100.0 * at.lack_of_one_ring(nu), 100.0 * at.excess_of_one_ring(nu))
@@ -144,16 +140,15 @@ std::string warn_of_polygons(const Mesh& mesh, const SlenderLayers& at) {
          "should ([mesh])";
 }
 
-std::optional<Warned> warn_of_hexahedra(const Mesh& mesh, const Unknowns& unknowns, BendBy by, const std::string& why) {
+std::optional<Warned> warn_of_hexahedra(const Mesh& mesh, const Unknowns& unknowns, BendBy by) {
   const auto worst = largest_bending_error(mesh, unknowns, by);
   if (!worst || std::abs(worst->error) <= bearable) return std::nullopt;
   const bool is_rough = unknowns.is_axisymmetric() && worst->by == BendBy::one_ring;
   const bool is_thin = worst->by != BendBy::one_ring && worst->error < 0.0;
-  return Warned{
-      worst->error,
-      words_on_layers(mesh, is_thin ? worst->layers.stack.thinnest : worst->cell, worst->layers, "hexahedra") +
-          fmt::format("{} {:.0f} % {}", is_rough ? "up to" : "about", 100.0 * std::abs(worst->error),
-                      words_on(*worst, why.empty() ? "one cell across" : why, is_rough))};
+  return Warned{worst->error, words_on_layers(mesh, is_thin ? worst->layers.stack.thinnest : worst->cell, worst->layers,
+                                              "hexahedra") +
+                                  fmt::format("{} {:.0f} % {}", is_rough ? "up to" : "about",
+                                              100.0 * std::abs(worst->error), words_on(*worst, is_rough))};
 }
 
 std::optional<std::string> larger(const std::optional<Warned>& one, const std::optional<Warned>& other) {
@@ -168,20 +163,17 @@ std::optional<std::string> bending_warning(const Mesh& mesh, const FractureModel
   const bool is_plane = std::ranges::any_of(model.boundary, [](const auto& on) {
     return is_front_or_back(on) && on.kind != BoundaryCondition::Kind::axisymmetric;
   });
-  const std::string why = reason(model);
   const Unknowns unknowns = place_unknowns(mesh, elastic_body(model));
   std::vector<SlenderLayers> slender = slender_layers(mesh, unknowns);
-  if (why.empty() && is_plane && !model.is_finite_strain() && !model.has_eigenstrain()) {
+  if (is_plane && fits_cubics(model)) {
     std::vector<SlenderLayers> of_prisms;
     for (const SlenderLayers& at : slender)
       if (at.of == SlenderCells::prisms_within) of_prisms.push_back(at);
     std::erase_if(slender, [](const SlenderLayers& at) { return at.of != SlenderCells::polyhedra; });
     if (!slender.empty()) return warn_of_polygons(mesh, slender.front());
-    return larger(warn_of_hexahedra(mesh, unknowns, BendBy::cubics, why),
-                  warn_of_plane_prisms(mesh, std::move(of_prisms)));
+    return larger(warn_of_hexahedra(mesh, unknowns, BendBy::cubics), warn_of_plane_prisms(mesh, std::move(of_prisms)));
   }
-  return larger(warn_of_hexahedra(mesh, unknowns, why.empty() ? BendBy::lines : BendBy::one_ring, why),
-                warn_of_others(mesh, unknowns, std::move(slender)));
+  return larger(warn_of_hexahedra(mesh, unknowns, BendBy::lines), warn_of_others(mesh, unknowns, std::move(slender)));
 }
 
 }  // namespace pfdm

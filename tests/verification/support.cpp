@@ -2,6 +2,7 @@
 
 #include "mesh/geometry.h"
 #include "mesh/patch_rules.h"
+#include "solver/fracture/equilibrium/law_newton.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -105,6 +106,22 @@ std::unique_ptr<ElasticSolution> solve_elastic(const Mesh& mesh, const FractureM
   solution->cpu_seconds = double(std::clock() - start) / CLOCKS_PER_SEC;
   solution->cells = solution->solver->balance().mechanics(solution->u);
   return solution;
+}
+
+std::vector<Vector> displacements_by_laws(const Mesh& mesh, const FractureModel& model, double damage) {
+  const Unknowns unknowns = place_unknowns(mesh, elastic_body(model));
+  MomentumSolver solver(mesh, unknowns);
+  CellStiffness stiffness(mesh, model);
+  stiffness.start_step(0.0);
+  FractureState state;
+  state.step = 1;
+  state.load = 1.0;
+  state.damage = CellField<double>(mesh.n_cells(), damage);
+  state.closure = CellField<double>(mesh.n_cells(), 0.0);
+  state.displacement.assign(unknowns.n_unknowns(), Vector::Zero());
+  stiffness.set(state, solver);
+  EXPECT_TRUE(solve_with_laws(stiffness, {.ceiling = 1e-9, .floor = 1e-9}, solver, state).converged);
+  return solver.balance().patch_displacements(state.displacement);
 }
 
 double relative_error(const Mesh& mesh, const std::function<Vector(Index)>& value,

@@ -52,6 +52,9 @@ std::unique_ptr<ElasticSolution> solve_elastic(const Mesh& mesh, const FractureM
                                                const CellField<double>& g = {}, double residual = 1e-10,
                                                const DisplacementField& body_force = {}, double closure = 0.0);
 
+/// Mean displacement of each patch [m] at equilibrium of stresses that are functions of the strain, evenly damaged.
+std::vector<Vector> displacements_by_laws(const Mesh& mesh, const FractureModel& model, double damage = 0.0);
+
 /// Volume-weighted L2 norm of the difference over that of the exact field; `counts` says which cells take part.
 double relative_error(const Mesh& mesh, const std::function<Vector(Index)>& value,
                       const std::function<Vector(Index)>& exact, const std::function<bool(Index)>& counts);

@@ -12,8 +12,8 @@ namespace pfdm {
 namespace {
 
 // Places among a cell's numbers; with a pressure the two volume changes, and what is left of both in each shear branch.
-// The faces follow, each with its gap, what is left of it in the shear branches, and along its normal in the bulk
-// branches.
+// The faces follow, each with its gap and what is left of it in the shear branches, and with bulk branches that along
+// its normal and what is left of it in these.
 constexpr std::size_t heat = 0, locked_energy = 1, volumes_from = 2, branches_from = 4;
 
 struct Energy {
@@ -120,9 +120,9 @@ void RelaxingGaps::tell(Index cell, std::span<const double> numbers, At when, Hi
     for (std::size_t i = 0; i < n_shear; ++i)
       left.shear +=
           by.law->shear[i].modulus * remainder(in_step.shear[i], Vector(vector_at(numbers, at + 3 + 3 * i)), z);
-    const double along = z.dot(mesh_.face_area[faces[k]].normalized());
+    const std::size_t along = at + by.bulk_from();
     for (std::size_t j = 0; j < n_bulk; ++j)
-      left.bulk += by.law->bulk[j].modulus * remainder(in_step.bulk[j], numbers[at + 3 + 3 * n_shear + j], along);
+      left.bulk += by.law->bulk[j].modulus * remainder(in_step.bulk[j], numbers[along + 1 + j], numbers[along]);
   }
 }
 
@@ -152,10 +152,12 @@ void RelaxingGaps::advance(Index cell, const VolumeChanges& changes, const std::
       Eigen::Map<Vector>(to.data() + at + 3 + 3 * i) = r;
       add(energy_of(by.law->shear[i], shear[i], r_n, r, z_n, z, dot), gap.volume);
     }
+    const std::size_t along = at + by.bulk_from();
+    const double a = gap.along;
+    if (n_bulk > 0) to[along] = a;
     for (std::size_t j = 0; j < n_bulk; ++j) {
-      const std::size_t place = at + 3 + 3 * n_shear + j;
-      const double r_n = from[place], a_n = z_n.dot(n), a = z.dot(n);
-      const double r = to[place] = bulk[j].after(r_n, a - a_n);
+      const double r_n = from[along + 1 + j], a_n = from[along];
+      const double r = to[along + 1 + j] = bulk[j].after(r_n, a - a_n);
       add(energy_of(by.law->bulk[j], bulk[j], r_n, r, a_n, a, [](double x, double y) { return x * y; }),
           gap.by_bulk * gap.volume);
     }

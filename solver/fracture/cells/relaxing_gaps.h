@@ -60,7 +60,8 @@ class RelaxingGaps {
     bool has_pressure = false;
     // Energies; with a pressure also the two volume changes, and what is left of both in each shear branch.
     std::size_t per_cell() const { return 2 + (has_pressure ? 2 + 2 * law->shear.size() : 0); }
-    std::size_t per_face() const { return 3 + 3 * law->shear.size() + law->bulk.size(); }
+    std::size_t bulk_from() const { return 3 + 3 * law->shear.size(); }  // among the numbers of a face
+    std::size_t per_face() const { return bulk_from() + (law->bulk.empty() ? 0 : 1 + law->bulk.size()); }
   };
   // What a kind has in a step of its duration.
   struct Moment {

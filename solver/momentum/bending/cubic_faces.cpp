@@ -194,10 +194,6 @@ void CubicFaces::weigh(const CellField<double>& g) {
   });
 }
 
-void CubicFaces::leave_out() {
-  for (Cell& fit : cells_) fit.weight = 0.0;
-}
-
 void CubicFaces::read(const std::vector<Vector>& u, const CellField<Tensor>& gradients,
                       std::vector<Change>& changes) const {
   parallel_chunks(count_of(cells_), [&](Index begin, Index end) {

@@ -44,9 +44,6 @@ class CubicFaces {
   bool fits(Index cell) const { return any() && has_fit_[cell] != 0; }
   /// Weighs each fit by the stiffness factors g.
   void weigh(const CellField<double>& g);
-  /// No fit counts: for laws by strain (splits without secant moduli), and for materials with a history, whose stress
-  /// no gradient alone gives. At finite strain there are none.
-  void leave_out();
   /// Finds the changes, by the number of the side, of the displacements u and their gradients in the cells. Sides of
   /// cells without fits are left alone.
   void read(const std::vector<Vector>& u, const CellField<Tensor>& gradients, std::vector<Change>& changes) const;

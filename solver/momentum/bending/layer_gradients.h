@@ -63,8 +63,6 @@ class LayerGradients {
   double counts(Index cell) const { return cover(cell) ? counting_[cell] : 0.0; }
   /// Weighs the lines of each cell by the stiffness factors g.
   void weigh(const CellField<double>& g);
-  /// None counts: for laws by strain, and for materials with a history.
-  void leave_out() { counts_ = false; }
   /// Whether the jump at a link has a weight of its own.
   bool weighs(std::size_t link) const { return any() && is_weighed_[link] != 0; }
   /// Turns the gradients of one ring of the displacements u into those along the lines. Finds the difference of the

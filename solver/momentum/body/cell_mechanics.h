@@ -9,9 +9,11 @@
 namespace pfdm {
 
 /// Difference of the strain of a cell at one of its faces from that of the cell, as the tractions of bodies with a
-/// history have it: (u_f - u_c - G d)/h, borne by (sym(gap n^T) : C) n. At finite strain turned back with the cell.
+/// history have it: (u_f - u_c - G d)/h, borne by (sym(gap n^T) : C) n, and what else the strain on the face has. At
+/// finite strain turned back with the cell.
 struct FaceGap {
-  Vector strain = Vector::Zero();  ///< [-]
+  Vector strain = Vector::Zero();  ///< as shear moduli bear it [-]
+  double along = 0.0;              ///< along the normal, as bulk moduli bear it [-]
   double volume = 0.0;             ///< A h [m^3]: half of it times traction and gap is an energy; 0: there is no force
   double by_shear = 0.0;           ///< stiffness along the normal over the shear modulus, and
   double by_bulk = 0.0;            ///< over the bulk modulus besides

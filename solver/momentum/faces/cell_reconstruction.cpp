@@ -4,6 +4,8 @@
 #include "solver/momentum/bending/slender_layers.h"
 #include "solver/parallel.h"
 
+#include <utility>
+
 namespace pfdm {
 namespace {
 
@@ -49,22 +51,19 @@ void CellReconstruction::relax_flat_cells() {
                            LayerGradients::OwnSides::surfaces);
 }
 
-void CellReconstruction::take_lines_alone() {
+CellReconstruction& CellReconstruction::take_lines_alone() {
+  if (std::exchange(has_lines_alone_, true)) return *this;
   const Mesh& mesh = skeleton_.mesh;
   const Unknowns& unknowns = skeleton_.unknowns;
   cubic_ = CubicFaces();
   layers_ = LayerGradients(mesh, unknowns, skeleton_.sides_by_turn(), skeleton_.links,
                            cells_with_lines(mesh, unknowns, LinesIn::space_and_plane));
+  return *this;
 }
 
 void CellReconstruction::weigh_third_order(const CellField<double>& g) {
   cubic_.weigh(g);
   layers_.weigh(g);
-}
-
-void CellReconstruction::leave_out_third_order() {
-  cubic_.leave_out();
-  layers_.leave_out();
 }
 
 void CellReconstruction::find_gradients(const std::vector<Vector>& u, CellField<Tensor>& gradients) const {

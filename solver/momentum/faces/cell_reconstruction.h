@@ -19,14 +19,13 @@ class CellReconstruction {
   void relax_flat_cells();
   bool relaxes_flat_cells() const { return relaxes_flat_cells_; }
   /// Prepares tractions by one gradient a cell, as at finite strain: lines of cells in plane meshes too, in place of
-  /// cubic faces.
-  void take_lines_alone();
+  /// cubic faces. Returns itself.
+  CellReconstruction& take_lines_alone();
 
   /// The weights of the gradients of one ring by the stiffness factors g, where these have changed by more than this
   /// fraction.
   void weigh(const CellField<double>& g, double part) { gradient_.update(g, part); }
   void weigh_third_order(const CellField<double>& g);
-  void leave_out_third_order();
   void weigh_pressures(const CellField<double>& g) { pressure_.weigh(g); }
   void take_over(CellField<IsotropicElasticity>& moduli, const CellField<double>& g,
                  const CellField<IsotropicElasticity>& sound, const CellField<char>& relaxes) {
@@ -50,7 +49,7 @@ class CellReconstruction {
   CubicFaces cubic_;       // its sides are numbered by turn,
   LayerGradients layers_;  // and so are these
   CellPressure pressure_;
-  bool relaxes_flat_cells_ = false;
+  bool relaxes_flat_cells_ = false, has_lines_alone_ = false;
 };
 
 }  // namespace pfdm

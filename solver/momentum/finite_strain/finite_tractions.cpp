@@ -12,19 +12,10 @@ using momentum_faces::LinkTensors;
 using momentum_faces::Side;
 using momentum_faces::SplitFace;
 
-namespace {
-
-CellReconstruction& with_lines_alone(CellReconstruction& cells) {
-  cells.take_lines_alone();
-  return cells;
-}
-
-}  // namespace
-
 FiniteTractions::FiniteTractions(const FaceSkeleton& skeleton, CellReconstruction& cells,
                                  const CellEigenstrain& eigenstrain)
     : FaceTractions(skeleton),
-      cells_(with_lines_alone(cells)),
+      cells_(cells.take_lines_alone()),
       eigenstrain_(eigenstrain),
       states_(skeleton, cells.layers()),
       pressure_(skeleton, cells.pressure(), states_),

@@ -5,7 +5,7 @@
 namespace pfdm {
 namespace {
 
-// A gap includes the gradient of a bonded side beyond that of the cell.
+// A gap includes the gradient of a side beyond that of the cell.
 struct StressByHistory {
   const CellField<LinearStress>& stress;
   const CellField<IsotropicElasticity>& moduli;
@@ -45,7 +45,8 @@ void HistoryTractions::set(const CellField<IsotropicElasticity>& moduli, const C
     stress_[c] = plane_stress(stress_[c], plane_normal());
   });
   cells_.weigh(g, part);
-  cells_.leave_out_third_order();
+  cells_.weigh_third_order(g);
+  extrapolate_eigenstrains();
   set_coefficients();
 }
 
@@ -77,7 +78,12 @@ HistoryTractions::GapStiffness HistoryTractions::gap_stiffness(Index c, const Hi
   return {share * 4.0 / 3.0, share};
 }
 
-// visit(place of the face in Mesh::cell_faces, force) of each face that bears a force.
+Vector HistoryTractions::outwards(Index cell, Index face) const {
+  const Mesh& mesh = skeleton_.mesh;
+  return (mesh.owner[face] == cell ? 1.0 : -1.0) * mesh.face_area[face].normalized();
+}
+
+// visit(place of the face in Mesh::cell_faces, the face, its normal outwards, force) of each that bears a force.
 template <class Visit>
 void HistoryTractions::visit_sides(Index cell, const Visit& visit) const {
   const Mesh& mesh = skeleton_.mesh;
@@ -85,7 +91,7 @@ void HistoryTractions::visit_sides(Index cell, const Visit& visit) const {
   const std::size_t first = mesh.cell_face_offsets[cell];
   const auto faces = mesh.faces_of_cell(cell);
   for (std::size_t k = 0; k < faces.size(); ++k)
-    if (skeleton_.force_of_face[faces[k]] >= 0) visit(first + k, faces[k], *next++);
+    if (skeleton_.force_of_face[faces[k]] >= 0) visit(first + k, faces[k], outwards(cell, faces[k]), *next++);
 }
 
 void HistoryTractions::bear_gaps(const HistoryStress& history, const CellField<double>& g) {
@@ -96,8 +102,7 @@ void HistoryTractions::bear_gaps(const HistoryStress& history, const CellField<d
   parallel_for(stress_.size(), [&](Index c) {
     gaps_[c] = gap_stiffness(c, history);
     if (!(gaps_[c].by_shear > 0.0)) return;
-    visit_sides(c, [&](std::size_t at, Index f, const FaceSkeleton::SignedForce& on) {
-      const Vector n = skeleton_.mesh.face_area[f].normalized();
+    visit_sides(c, [&](std::size_t at, Index, const Vector& n, const FaceSkeleton::SignedForce& on) {
       const GapStress& left = history.gaps[at];
       initial_of_gaps_[skeleton_.turn_at(on)] =
           g[c] * (momentum_faces::scale(gaps_[c].by_shear, 1.0, n, left.shear) + gaps_[c].by_bulk * left.bulk * n);
@@ -112,7 +117,7 @@ void HistoryTractions::find_linear(const std::vector<Vector>& u, Sweep& sweep) c
 
 // n leads outwards from P and from sides, into N.
 Vector HistoryTractions::initial_traction(Index cell, const Vector& n, std::size_t turn) const {
-  Vector of_cell = initial_stress(cell) * n;
+  const Vector of_cell = IsotropicTractions::initial_traction(cell, n, turn);
   if (gaps_.size() == 0) return of_cell;
   const bool is_N = !skeleton_.is_side(turn) && turn == FaceSkeleton::turn_N(turn / 2);
   return of_cell + (is_N ? -1.0 : 1.0) * initial_of_gaps_[turn];
@@ -152,26 +157,31 @@ void HistoryTractions::add_histories(const FaceMoves& moves, CellMechanics& resu
   });
 }
 
-// The strain that is borne, as a gap is, by what the gradient of a bonded side has beyond that of the cell.
-Vector HistoryTractions::bonded_strain(Index cell, const Vector& n, std::size_t turn, const Sweep& sweep) const {
-  if (bonded_at(turn) < 0) return Vector::Zero();
+void HistoryTractions::add_strain_on_side(Index cell, const Vector& n, std::size_t turn, const Sweep& sweep,
+                                          FaceGap& gap) const {
+  if (!varies_at(turn)) return;
   const Tensor beyond = gradient_at(cell, turn, sweep) - sweep.gradients[cell];
-  const Vector by_shear = IsotropicStress{of_stress()}(cell, beyond, n) / moduli()[cell].mu;
-  return momentum_faces::scale(1.0 / gaps_[cell].by_shear, 1.0, n, by_shear);
+  const double by_bulk = gaps_[cell].by_bulk, volume = beyond.trace(),
+               of_mean = of_stress()[cell].lambda / moduli()[cell].mu;
+  const Vector by_shear = beyond * n + beyond.transpose() * n + (by_bulk > 0.0 ? -2.0 / 3.0 : of_mean) * volume * n;
+  gap.strain += momentum_faces::scale(1.0 / gaps_[cell].by_shear, 1.0, n, by_shear);
+  if (by_bulk > 0.0) gap.along += volume / by_bulk;
 }
 
 void HistoryTractions::add_gaps(Index cell, const FaceMoves& moves, CellMechanics& result) const {
   const Mesh& mesh = skeleton_.mesh;
-  visit_sides(cell, [&](std::size_t at, Index f, const FaceSkeleton::SignedForce& on) {
+  visit_sides(cell, [&](std::size_t at, Index f, const Vector& n, const FaceSkeleton::SignedForce& on) {
     const std::size_t turn = skeleton_.turn_at(on);
-    const Vector d = mesh.face_centre[f] - mesh.cell_centre[cell], n = mesh.face_area[f].normalized();
+    const Vector d = mesh.face_centre[f] - mesh.cell_centre[cell];
     const Vector move = moves.seen_from(cell, f) - moves.u[cell];
     const double h = std::abs(d.dot(n));
-    const Vector in_gap = gap(cell, d, turn, move, moves.u, moves.sweep) * stiffer_at(turn) / h;
-    result.gaps[at] = {.strain = in_gap + bonded_strain(cell, n, turn, moves.sweep),
-                       .volume = mesh.face_area[f].norm() * h,
-                       .by_shear = gaps_[cell].by_shear,
-                       .by_bulk = gaps_[cell].by_bulk};
+    FaceGap& at_face = result.gaps[at];
+    at_face.strain = gap(cell, d, turn, move, moves.u, moves.sweep) * stiffer_at(turn) / h;
+    at_face.along = at_face.strain.dot(n);
+    at_face.volume = mesh.face_area[f].norm() * h;
+    at_face.by_shear = gaps_[cell].by_shear;
+    at_face.by_bulk = gaps_[cell].by_bulk;
+    add_strain_on_side(cell, n, turn, moves.sweep, at_face);
   });
 }
 

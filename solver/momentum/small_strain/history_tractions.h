@@ -7,14 +7,16 @@
 //   the direction of the strain increment;
 // - by relaxing materials, which are linear, as strains are: a, b and c are of the moduli that a change of strain
 //   meets in the step, and what is left of earlier gaps is an initial traction of the side (history_stress.h). A body
-//   that has relaxed is then the elastic one of the relaxed moduli with gradients of one ring. Not in plane stress: its
+//   that has relaxed is then the elastic one of the relaxed moduli with the same gradients. Not in plane stress: its
 //   modulus along a face's normal is not linear in mu, so that the parts of the branches do not add up.
+//
+// As gaps are borne differences of the gradient on a side from that of its cell: on bonded sides, and where few layers
+// bend, which have gradients along lines of cells, in plane meshes too (layer_gradients.h).
 //
 // Nearly incompressible cells have a pressure (cell_pressure.h): of p = K tr eps + p_0, with K and p_0 of C and
 // sigma_0, it carries all but K_s tr eps, V (q - p_0)/(K - K_s) = sum u_f.S. In relaxing cells K_s = lambda_s + 2 mu/3
 // relaxes as mu does. The mean stress is K tr eps + K_s (tr G - tr eps), tr eps being the volume change by the flux;
 // what is left of earlier tr G in K_s is an initial stress of the cell, what is left of tr eps one of its pressure.
-// There are no faces of third order.
 
 #include "solver/momentum/small_strain/history_stress.h"
 #include "solver/momentum/small_strain/isotropic_tractions.h"
@@ -24,7 +26,7 @@ namespace pfdm {
 class HistoryTractions final : public IsotropicTractions {
  public:
   HistoryTractions(const FaceSkeleton& skeleton, CellReconstruction& cells, const CellEigenstrain& eigenstrain)
-      : IsotropicTractions(skeleton, cells, eigenstrain, false) {}
+      : IsotropicTractions(skeleton, cells.take_lines_alone(), eigenstrain) {}
 
   /// Sets the moduli as IsotropicTractions::set(), with the history of the body.
   void set(const CellField<IsotropicElasticity>& moduli, const CellField<double>& g, double part,
@@ -45,7 +47,9 @@ class HistoryTractions final : public IsotropicTractions {
   void give_to_pressures(const HistoryStress& history, const CellField<double>& g);
   void bear_gaps(const HistoryStress& history, const CellField<double>& g);
   void add_gaps(Index cell, const FaceMoves& moves, CellMechanics& result) const;
-  Vector bonded_strain(Index cell, const Vector& n, std::size_t turn, const Sweep& sweep) const;
+  // Adds to a gap, as strain, what the gradient on a side has beyond that of the cell.
+  void add_strain_on_side(Index cell, const Vector& n, std::size_t turn, const Sweep& sweep, FaceGap& gap) const;
+  Vector outwards(Index cell, Index face) const;
   template <class Visit>
   void visit_sides(Index cell, const Visit& visit) const;
 

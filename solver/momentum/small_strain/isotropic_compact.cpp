@@ -83,7 +83,7 @@ void IsotropicTractions::take_away_constant_volumes(std::vector<Vector>& load) c
     const double softness = by.weight_n * (1.0 - by.weight_n) / by.c_n;
     flux[i] = link.area * softness * link.n.dot(initial_jump(i));
   });
-  if (!eigenstrain_changes_.empty())
+  if (varies_eigenstrain())
     parallel_for(count_of(skeleton_.sides), [&](Index i) {
       const double beyond = lag(i, eigenstrain_change(skeleton_.turn_of_side(i)));
       flux[skeleton_.links.size() + as_size(i)] = -skeleton_.sides[i].area * beyond;

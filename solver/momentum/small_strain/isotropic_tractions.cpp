@@ -13,15 +13,13 @@ using momentum_faces::scale;
 using momentum_faces::Side;
 
 IsotropicTractions::IsotropicTractions(const FaceSkeleton& skeleton, CellReconstruction& cells,
-                                       const CellEigenstrain& eigenstrain, bool has_third_order)
+                                       const CellEigenstrain& eigenstrain)
     : SmallTractions(skeleton, cells, eigenstrain),
       moduli_(skeleton.mesh.n_cells()),
       jump_(skeleton, jump_share_),
-      bonded_(skeleton.mesh, skeleton.unknowns, skeleton.sides,
-              [&](Index c) {
-                return !has_third_order ||
-                       (!cells.cubic().fits(c) && (cells.relaxes_flat_cells() || !cells.layers().cover(c)));
-              }),
+      bonded_(
+          skeleton.mesh, skeleton.unknowns, skeleton.sides,
+          [&](Index c) { return !cells.cubic().fits(c) && (cells.relaxes_flat_cells() || !cells.layers().cover(c)); }),
       link_values_(skeleton.links.size()),
       side_values_(skeleton.sides.size()) {}
 
@@ -77,21 +75,9 @@ void IsotropicTractions::find_initial_stress() {
                [&](Index c) { initial_stress_[c] = -stress(of_stress_[c], to_tensor(eigenstrain_[c])); });
 }
 
-// Within the plane in plane stress: the stress does not depend on that across it.
-void IsotropicTractions::extrapolate_eigenstrains() {
-  eigenstrain_changes_.clear();
-  if (!eigenstrain_.any() || !cells_.layers().any()) return;
-  eigenstrain_changes_.assign(skeleton_.n_turns(), Tensor::Zero());
-  const Tensor within =
-      Tensor::Identity() - (is_plane_stress() ? 1.0 : 0.0) * plane_normal() * plane_normal().transpose();
-  cells_.layers().extrapolate([&](std::size_t turn, Index cell, Index behind, double part) {
-    eigenstrain_changes_[turn] = part * within * to_tensor(eigenstrain_[cell] - eigenstrain_[behind]) * within;
-  });
-}
-
 Vector IsotropicTractions::initial_traction(Index cell, const Vector& n, std::size_t turn) const {
-  if (eigenstrain_changes_.empty()) return initial_stress_[cell] * n;
-  return (initial_stress_[cell] - stress(of_stress_[cell], eigenstrain_changes_[turn])) * n;
+  const Vector of_cell = initial_stress(cell) * n;
+  return varies_eigenstrain() ? of_cell - stress(of_stress_[cell], eigenstrain_change(turn)) * n : of_cell;
 }
 
 void IsotropicTractions::set_coefficients() {

@@ -50,10 +50,8 @@ struct IsotropicSweep : Sweep {
 
 class IsotropicTractions : public SmallTractions {
  public:
-  /// `has_third_order`: cells have gradients of third order where they bend, which do without the care for bonded
-  /// sides.
-  IsotropicTractions(const FaceSkeleton& skeleton, CellReconstruction& cells, const CellEigenstrain& eigenstrain,
-                     bool has_third_order = true);
+  /// Cells that have gradients of third order do without the care for bonded sides.
+  IsotropicTractions(const FaceSkeleton& skeleton, CellReconstruction& cells, const CellEigenstrain& eigenstrain);
 
   /// Secant moduli of every cell, and the stiffness factors g that weight the gradients; the weights are updated only
   /// where g has changed by more than the fraction `part`.
@@ -123,9 +121,6 @@ class IsotropicTractions : public SmallTractions {
   double stress_across(Index cell, const Tensor& strain, const Sweep& sweep) const override;
   double energy_of_part(Index cell, const IsotropicElasticity& part, const Tensor& strain,
                         const FaceMoves& moves) const override;
-  Tensor eigenstrain_change(std::size_t turn) const override {
-    return eigenstrain_changes_.empty() ? Tensor::Zero() : eigenstrain_changes_[turn];
-  }
   std::unique_ptr<Sweep> new_sweep() const override;
   PressureRow pressure_row(std::size_t k) const override;
 
@@ -134,6 +129,10 @@ class IsotropicTractions : public SmallTractions {
   // Number of the bonded side that side number `turn` is; -1: none.
   Index bonded_at(std::size_t turn) const {
     return skeleton_.is_side(turn) ? bonded_.number(turn - 2 * skeleton_.links.size()) : -1;
+  }
+  // Whether the gradient at side number `turn` may be another one than the cell's.
+  bool varies_at(std::size_t turn) const {
+    return cells_.cubic().any() || cells_.layers().any() || bonded_at(turn) >= 0;
   }
   // a over that of sides that are not bonded.
   double stiffer_at(std::size_t turn) const { return bonded_at(turn) < 0 ? 1.0 : BondedSides::stiffer; }
@@ -156,14 +155,9 @@ class IsotropicTractions : public SmallTractions {
   };
   void condense();
   void find_initial_stress();
-  void extrapolate_eigenstrains();
   LinkValues values_of(std::size_t link) const;
   SideValues values_of_side(std::size_t side) const;
   void reconstruct(const std::vector<Vector>& u, IsotropicSweep& s) const;
-  // Whether the gradient at side number `turn` is another one than the cell's.
-  bool varies_at(std::size_t turn) const {
-    return cells_.cubic().any() || cells_.layers().any() || bonded_at(turn) >= 0;
-  }
   // Gradient of the cell, or of the surface on which side number `turn` is bonded.
   const Tensor& mean_gradient_at(Index cell, std::size_t turn, const IsotropicSweep& s) const {
     const Index k = bonded_at(turn);
@@ -192,8 +186,7 @@ class IsotropicTractions : public SmallTractions {
   CellField<IsotropicElasticity> of_stress_;  // the cells' stress, which leaves more of closed cracks to the pressure
   PolyhedralJump jump_;
   BondedSides bonded_;
-  CellField<Tensor> initial_stress_;         // -C eps* [Pa], condensed in plane stress; empty without eigenstrains
-  std::vector<Tensor> eigenstrain_changes_;  // by turn; empty without eigenstrains or lines
+  CellField<Tensor> initial_stress_;  // -C eps* [Pa], condensed in plane stress; empty without eigenstrains
   std::vector<LinkValues> link_values_;
   std::vector<SideValues> side_values_;
 };

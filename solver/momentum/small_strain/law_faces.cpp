@@ -27,33 +27,35 @@ LawTractions::SideLaw LawTractions::side_law_of(const MandelMatrix& C, const Man
 void LawTractions::set(StrainLaw law, const CellField<double>& g, const std::vector<Vector>& u, bool afresh,
                        double part) {
   law_ = std::move(law);
-  cells_.leave_out_third_order();
   cells_.weigh(g, part);
+  cells_.weigh_third_order(g);
+  extrapolate_eigenstrains();
   const auto lease = sweep();
-  const CellField<Tensor>& gradients = lease->gradients;
-  cells_.find_gradients(u, lease->gradients);
+  LawSweep& s = of(*lease);
+  reconstruct(u, s);
   const std::size_t n = skeleton_.mesh.n_cells();
   const bool has_faces = !side_laws_.empty() && !afresh;
   stiffness_ = CellField<MandelMatrix>(n);
   initial_stress_ = CellField<Tensor>(eigenstrain_.any() ? n : 0);
   parallel_for(skeleton_.mesh.n_cells(), [&](Index c) {
-    const AtStrain at = law_at(c, symmetric_part(gradients[c]));
+    const AtStrain at = law_at(c, symmetric_part(s.gradients[c]));
     stiffness_[c] = at.C;
     if (eigenstrain_.any()) initial_stress_[c] = to_tensor(at.initial);
   });
   side_laws_.resize(skeleton_.n_turns());
   link_tensors_.resize(skeleton_.links.size());
   side_tensors_.resize(skeleton_.sides.size());
-  parallel_for(count_of(link_tensors_), [&](Index i) { settle_link(i, has_faces, u, gradients); });
-  parallel_for(count_of(side_tensors_), [&](Index i) { settle_side(i, u, gradients); });
+  parallel_for(count_of(link_tensors_), [&](Index i) { settle_link(i, has_faces, u, s); });
+  parallel_for(count_of(side_tensors_), [&](Index i) { settle_side(i, u, s); });
 }
 
-void LawTractions::settle_side(std::size_t i, const std::vector<Vector>& u, const CellField<Tensor>& gradients) {
+void LawTractions::settle_side(std::size_t i, const std::vector<Vector>& u, const LawSweep& s) {
   const Side& side = skeleton_.sides[i];
-  const Tensor& G = gradients[side.cell];
-  const Vector gap = u[side.node] - u[side.cell] - G * side.d;
-  SideLaw& law = side_laws_[skeleton_.turn_of_side(i)];
-  law = side_law(side.cell, stretched(G, gap, side.n, side.h()), side.n);
+  const std::size_t turn = skeleton_.turn_of_side(i);
+  const Vector gap = u[side.node] - u[side.cell] - s.gradients[side.cell] * side.d;
+  SideLaw& law = side_laws_[turn];
+  law = side_law(side.cell, stretched(strain_at(side.cell, turn, s), gap, side.n, side.h()), side.n);
+  set_free(law, turn);
   side_tensors_[i] = law.acoustic / side.h();
 }
 
@@ -92,7 +94,7 @@ LawTractions::SideLaw LawTractions::side_law(Index cell, const Tensor& strain, c
 struct LawTractions::LinkBalance {
   const LawTractions& of;
   const Link& link;
-  const Tensor &G_P, &G_N;
+  const Tensor G_P, G_N;
   SideLaw &P, &N;
   Vector jump;
   double h_P, h_N;
@@ -120,18 +122,18 @@ struct LawTractions::LinkBalance {
 };
 
 // Newton's method; a step that leads beyond the least energy by more than half is shortened.
-void LawTractions::settle_link(std::size_t i, bool has_faces, const std::vector<Vector>& u,
-                               const CellField<Tensor>& gradients) {
+void LawTractions::settle_link(std::size_t i, bool has_faces, const std::vector<Vector>& u, const LawSweep& s) {
   constexpr int most_steps = 50, most_cuts = 6;
   const Link& link = skeleton_.links[i];
-  const Vector jump = u[link.N] + gradients[link.N] * link.d_N - u[link.P] - gradients[link.P] * link.d_P;
+  const std::size_t turn_P = FaceSkeleton::turn_P(i), turn_N = FaceSkeleton::turn_N(i);
+  const Vector jump = u[link.N] + s.gradients[link.N] * link.d_N - u[link.P] - s.gradients[link.P] * link.d_P;
   LinkBalance balance{.of = *this,
                       .link = link,
-                      .G_P = gradients[link.P],
-                      .G_N = gradients[link.N],
-                      .P = side_laws_[FaceSkeleton::turn_P(i)],
-                      .N = side_laws_[FaceSkeleton::turn_N(i)],
-                      .jump = jump,
+                      .G_P = strain_at(link.P, turn_P, s),
+                      .G_N = strain_at(link.N, turn_N, s),
+                      .P = side_laws_[turn_P],
+                      .N = side_laws_[turn_N],
+                      .jump = weighed(i, jump),
                       .h_P = link.h_P(),
                       .h_N = link.h_N()};
   if (!has_faces) {
@@ -153,6 +155,13 @@ void LawTractions::settle_link(std::size_t i, bool has_faces, const std::vector<
   const Tensor softness = balance.softness(), weight = balance.N.acoustic / balance.h_N * softness;
   link_tensors_[i] = {
       .weight = weight, .c = symmetric_part(weight * balance.P.acoustic / balance.h_P), .softness = softness};
+  set_free(balance.P, turn_P);
+  set_free(balance.N, turn_N);
+}
+
+// Adds to the traction without strain that of an eigenstrain that is not the cell's.
+void LawTractions::set_free(SideLaw& law, std::size_t turn) const {
+  if (varies_eigenstrain()) law.initial -= law.rows * to_mandel(eigenstrain_change(turn));
 }
 
 }  // namespace pfdm

@@ -28,8 +28,20 @@ LawTractions::SideLaw LawTractions::law_of_cell(Index c, const Vector& n) const 
   return side_law_of(stiffness_[c], initial, n);
 }
 
-void LawTractions::find_linear(const std::vector<Vector>& u, Sweep& s) const {
+std::unique_ptr<Sweep> LawTractions::new_sweep() const {
+  auto s = std::make_unique<LawSweep>(skeleton_);
+  s->layers.assign(cells_.layers().has_lines() ? skeleton_.n_turns() : 0, Tensor::Zero());
+  return s;
+}
+
+void LawTractions::reconstruct(const std::vector<Vector>& u, LawSweep& s) const {
   cells_.find_gradients(u, s.gradients);
+  if (cells_.layers().any()) cells_.layers().correct(u, s.gradients, s.layers);
+}
+
+void LawTractions::find_linear(const std::vector<Vector>& u, Sweep& sweep) const {
+  LawSweep& s = of(sweep);
+  reconstruct(u, s);
   const Vector& across = plane_normal();
   parallel_for(s.sector_stress.size(), [&](Index c) {
     s.sector_stress[c] = across.dot(to_tensor(stiffness_[c] * to_mandel(symmetric_part(s.gradients[c]))) * across);
@@ -38,18 +50,19 @@ void LawTractions::find_linear(const std::vector<Vector>& u, Sweep& s) const {
   parallel_for(n_links, [&](Index i) {
     const Link& link = skeleton_.links[i];
     const Tensor &G_P = s.gradients[link.P], &G_N = s.gradients[link.N];
-    const Vector stress_P = linear_traction(FaceSkeleton::turn_P(i), G_P);
-    const Vector stress_N = linear_traction(FaceSkeleton::turn_N(i), G_N);
+    const std::size_t P = FaceSkeleton::turn_P(i), N = FaceSkeleton::turn_N(i);
+    const Vector stress_P = linear_traction(P, gradient_at(link.P, P, s));
+    const Vector stress_N = linear_traction(N, gradient_at(link.N, N, s));
     const Vector u_P = u[link.P] + G_P * link.d_P;
     const Vector jump = u[link.N] + G_N * link.d_N - u_P;
     const auto& by = link_tensors_[i];
-    s.force[i] = link.area * (stress_N + by.weight * (stress_P - stress_N) + by.c * jump);
+    s.force[i] = link.area * (stress_N + by.weight * (stress_P - stress_N) + by.c * weighed(i, jump));
   });
   parallel_for(count_of(skeleton_.sides), [&](Index i) {
     const Side& side = skeleton_.sides[i];
-    const Tensor& G = s.gradients[side.cell];
-    const Vector gap = u[side.node] - u[side.cell] - G * side.d;
-    const Vector stress = linear_traction(skeleton_.turn_of_side(i), G);
+    const std::size_t turn = skeleton_.turn_of_side(i);
+    const Vector gap = u[side.node] - u[side.cell] - s.gradients[side.cell] * side.d;
+    const Vector stress = linear_traction(turn, gradient_at(side.cell, turn, s));
     s.force[n_links + i] = side.area * (stress + side_tensors_[i] * gap);
   });
 }
@@ -71,13 +84,14 @@ bool LawTractions::add_constant(Sweep& s) const {
 }
 
 // (a + b)^-1 b is the transpose of P's weight.
-Vector LawTractions::link_displacement(std::size_t i, const std::vector<Vector>& u, const Sweep& s) const {
+Vector LawTractions::link_displacement(std::size_t i, const std::vector<Vector>& u, const Sweep& sweep) const {
+  const LawSweep& s = of(sweep);
   const Link& link = skeleton_.links[i];
   const std::size_t P = FaceSkeleton::turn_P(i), N = FaceSkeleton::turn_N(i);
   const Tensor &G_P = s.gradients[link.P], &G_N = s.gradients[link.N];
   const Vector from_P = u[link.P] + G_P * link.d_P;
   const Vector from_N = u[link.N] + G_N * link.d_N;
-  Vector stress_jump = linear_traction(N, G_N) - linear_traction(P, G_P);
+  Vector stress_jump = linear_traction(N, gradient_at(link.N, N, s)) - linear_traction(P, gradient_at(link.P, P, s));
   if (eigenstrain_.any()) stress_jump += side_laws_[N].initial - side_laws_[P].initial;
   const Vector towards_N = link_tensors_[i].weight.transpose() * (from_N - from_P);
   return from_P + towards_N + link_tensors_[i].softness * stress_jump;
@@ -127,13 +141,24 @@ double LawTractions::stress_across(Index cell, const Tensor& strain, const Sweep
   return plane_normal().dot(to_tensor(stress) * plane_normal());
 }
 
+// The part of the jump at a link without weight that the face's displacement has beyond a cell's gap [m].
+Vector LawTractions::unweighed(Index cell, std::size_t turn, const FaceMoves& moves) const {
+  if (skeleton_.is_side(turn) || !cells_.layers().weighs(turn / 2)) return Vector::Zero();
+  const std::size_t i = turn / 2;
+  const Link& link = skeleton_.links[i];
+  const CellField<Tensor>& G = moves.sweep.gradients;
+  const Vector jump = moves.u[link.N] + G[link.N] * link.d_N - moves.u[link.P] - G[link.P] * link.d_P;
+  const Vector without = jump - weighed(i, jump), towards_N = link_tensors_[i].weight.transpose() * without;
+  return cell == link.P ? towards_N : Vector(towards_N - without);
+}
+
 // Splits of the regions may differ in kind: an isotropic part is that of cells with secant moduli.
 double LawTractions::energy_of_part(Index cell, const IsotropicElasticity& part, const Tensor& strain,
                                     const FaceMoves& moves) const {
-  const Tensor& in_cell = moves.sweep.gradients[cell];
-  const auto at = [&](std::size_t, const Vector& d, const Vector& n, const Vector& move) -> Tensor {
-    const Vector gap = move - in_cell * d;
-    return in_cell + gap * n.transpose() / bounded_height(d, n);
+  const LawSweep& s = of(moves.sweep);
+  const auto at = [&](std::size_t turn, const Vector& d, const Vector& n, const Vector& move) -> Tensor {
+    const Vector gap = move - s.gradients[cell] * d - unweighed(cell, turn, moves);
+    return gradient_at(cell, turn, s) + gap * n.transpose() / bounded_height(d, n);
   };
   return part.mu > 0.0 ? energy_over_faces(cell, with_jump_modulus(cell, part), strain, moves, at)
                        : energy_over_faces(cell, LawPart{law_, cell}, strain, moves, at);

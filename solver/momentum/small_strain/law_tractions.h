@@ -10,7 +10,10 @@
 // strain of the cell's own jump where one of its principal strains changes sign, and have no equilibrium there.
 //
 // The balance is linear in the displacements, with a = (n.C.n)/h of the tangents C at these strains; it is exact where
-// it was linearised. There are no pressures and no faces of third order.
+// it was linearised. There are no pressures.
+//
+// Where few layers of hexahedra bend, G is that along lines of cells, in plane meshes too; surfaces have gradients of
+// their own, and y_P + y_N is the jump with its weights (layer_gradients.h).
 
 #include "physics/elasticity/linear_stress.h"
 #include "solver/momentum/small_strain/small_tractions.h"
@@ -18,9 +21,16 @@
 
 namespace pfdm {
 
+/// Result of a sweep of these tractions.
+struct LawSweep : Sweep {
+  using Sweep::Sweep;
+  std::vector<Tensor> layers;  // by turn; empty without lines
+};
+
 class LawTractions final : public SmallTractions {
  public:
-  using SmallTractions::SmallTractions;
+  LawTractions(const FaceSkeleton& skeleton, CellReconstruction& cells, const CellEigenstrain& eigenstrain)
+      : SmallTractions(skeleton, cells.take_lines_alone(), eigenstrain) {}
 
   /// The law, linearised about the displacements u. The faces are found from where they were, or `afresh`. g and
   /// `part` as of IsotropicTractions::set().
@@ -56,8 +66,25 @@ class LawTractions final : public SmallTractions {
   AtStrain law_at(Index cell, const Tensor& strain) const;
   SideLaw side_law(Index cell, const Tensor& strain, const Vector& n) const;
   SideLaw law_of_cell(Index cell, const Vector& n) const;
-  void settle_link(std::size_t link, bool has_faces, const std::vector<Vector>& u, const CellField<Tensor>& gradients);
-  void settle_side(std::size_t side, const std::vector<Vector>& u, const CellField<Tensor>& gradients);
+  void settle_link(std::size_t link, bool has_faces, const std::vector<Vector>& u, const LawSweep& s);
+  void settle_side(std::size_t side, const std::vector<Vector>& u, const LawSweep& s);
+  void set_free(SideLaw& law, std::size_t turn) const;
+  void reconstruct(const std::vector<Vector>& u, LawSweep& s) const;
+  // The gradient [-] from which the traction on a side of a face is computed.
+  Tensor gradient_at(Index cell, std::size_t turn, const LawSweep& s) const {
+    return cells_.layers().any() ? Tensor(s.gradients[cell] + s.layers[turn]) : s.gradients[cell];
+  }
+  // That of a law: less what the eigenstrain there has beyond that of the cell.
+  Tensor strain_at(Index cell, std::size_t turn, const LawSweep& s) const {
+    return symmetric_part(gradient_at(cell, turn, s)) - eigenstrain_change(turn);
+  }
+  // The jump at a link as the gaps bear it [m].
+  Vector weighed(std::size_t link, const Vector& jump) const {
+    return cells_.layers().any() ? Vector(cells_.layers().weight(link) * jump) : jump;
+  }
+  Vector unweighed(Index cell, std::size_t turn, const FaceMoves& moves) const;
+  static const LawSweep& of(const Sweep& sweep) { return static_cast<const LawSweep&>(sweep); }
+  static LawSweep& of(Sweep& sweep) { return static_cast<LawSweep&>(sweep); }
   // Part that varies with the displacements [Pa].
   Vector linear_traction(std::size_t turn, const Tensor& G) const {
     return side_laws_[turn].rows * to_mandel(symmetric_part(G));
@@ -67,7 +94,7 @@ class LawTractions final : public SmallTractions {
   double stress_across(Index cell, const Tensor& strain, const Sweep& sweep) const override;
   double energy_of_part(Index cell, const IsotropicElasticity& part, const Tensor& strain,
                         const FaceMoves& moves) const override;
-  std::unique_ptr<Sweep> new_sweep() const override { return std::make_unique<Sweep>(skeleton_); }
+  std::unique_ptr<Sweep> new_sweep() const override;
 
   StrainLaw law_;
   CellField<MandelMatrix> stiffness_;  // at the strain of the cell [Pa]

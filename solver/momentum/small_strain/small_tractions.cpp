@@ -22,6 +22,18 @@ IsotropicPart SmallTractions::with_jump_modulus(Index cell, const IsotropicElast
   return with;
 }
 
+// Within the plane in plane stress: the stress does not depend on that across it.
+void SmallTractions::extrapolate_eigenstrains() {
+  eigenstrain_changes_.clear();
+  if (!eigenstrain_.any() || !cells_.layers().any()) return;
+  eigenstrain_changes_.assign(skeleton_.n_turns(), Tensor::Zero());
+  const Tensor within =
+      Tensor::Identity() - (is_plane_stress() ? 1.0 : 0.0) * plane_normal() * plane_normal().transpose();
+  cells_.layers().extrapolate([&](std::size_t turn, Index cell, Index behind, double part) {
+    eigenstrain_changes_[turn] = part * within * to_tensor(eigenstrain_[cell] - eigenstrain_[behind]) * within;
+  });
+}
+
 void SmallTractions::finish_stress(Index c, const CellSums& sums, const Sweep& sweep, CellMechanics& result) const {
   const double volume = skeleton_.mesh.cell_volume[c];
   const Vector& normal = plane_normal();

@@ -42,8 +42,13 @@ class SmallTractions : public FaceTractions {
   /// Energy per volume [J/m^3] of a part of the cell's stiffness (CellMechanics::part_energy).
   virtual double energy_of_part(Index cell, const IsotropicElasticity& part, const Tensor& strain,
                                 const FaceMoves& moves) const = 0;
+  /// Finds the eigenstrains on sides with gradients of their own.
+  void extrapolate_eigenstrains();
+  bool varies_eigenstrain() const { return !eigenstrain_changes_.empty(); }
   /// Difference of the eigenstrain on side number `turn` from that of its cell [-].
-  virtual Tensor eigenstrain_change(std::size_t) const { return Tensor::Zero(); }
+  Tensor eigenstrain_change(std::size_t turn) const {
+    return varies_eigenstrain() ? eigenstrain_changes_[turn] : Tensor::Zero();
+  }
   /// Adds the results that materials with a history need.
   virtual void add_histories(const FaceMoves&, CellMechanics&) const {}
 
@@ -62,6 +67,8 @@ class SmallTractions : public FaceTractions {
   CellField<double> jump_share_;  // lambda_s + 2 mu over lambda + 2 mu, undamaged; 1 except in polyhedra
 
  private:
+  std::vector<Tensor> eigenstrain_changes_;  // by turn; empty without eigenstrains or lines
+
   void finish_stress(Index cell, const CellSums& sums, const Sweep& sweep, CellMechanics& result) const;
 };
 

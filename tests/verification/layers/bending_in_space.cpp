@@ -1,10 +1,7 @@
 // Cantilevers in space, of few or long cells, against elements of high degree; laminates under a moment; what damage
-// and gradients of one ring do to their bending.
+// does to their bending.
 
 #include "solver/fracture/bending_words.h"
-#include "solver/fracture/cells/cell_stiffness.h"
-#include "solver/fracture/equilibrium/law_newton.h"
-#include "solver/momentum/bending/bending_layers.h"
 #include "tests/verification/layers/cantilever.h"
 #include "tests/verification/support.h"
 
@@ -188,64 +185,6 @@ TEST(Bending, InSpaceWithDamage) {
   report_row("with a soft band", {{"iterations", static_cast<double>(band.solution->equilibrium.iterations)},
                                   {"sound", static_cast<double>(sound.solution->equilibrium.iterations)}});
   EXPECT_GT(band.compliance, 2.0 * sound.compliance);
-}
-
-/// Mean deflection of the end of a beam whose given elasticity makes its gradients those of one ring [m].
-double deflection_by_one_ring(const Mesh& mesh, const FractureModel& model) {
-  const Unknowns unknowns = place_unknowns(mesh, elastic_body(model));
-  MomentumSolver solver(mesh, unknowns);
-  CellStiffness stiffness(mesh, model);
-  stiffness.start_step(0.0);
-  const CellField<double> none(mesh.n_cells(), 0.0);
-  FractureState state;
-  state.step = 1;
-  state.load = 1.0;
-  state.damage = none;
-  state.closure = none;
-  state.displacement.assign(unknowns.n_unknowns(), Vector::Zero());
-  stiffness.set(state, solver);
-  EXPECT_TRUE(solve_with_laws(stiffness, {.ceiling = 1e-9, .floor = 1e-9}, solver, state).converged);
-  const auto end = mesh.patch_index("xmax");
-  return solver.balance().patch_displacements(state.displacement)[end].y();
-}
-
-// Of elasticity that may depend on the direction each cell's gradient is that of one ring. The sides across z are
-// planes of symmetry, so that the beam is that in plane strain.
-TEST(Bending, InSpaceByOneRingErrsAsTheFormulaSays) {
-  for (const double nu : {0.0, 0.3, 0.45})
-    for (const Index across : {2, 4, 6})
-      for (const double ratio : {1.0, 2.0, 4.0}) {
-        const Mesh mesh = mesh_of(along_with(ratio, across), across);
-        FractureModel model = elastic_model(
-            {from_young_poisson(E, nu)},
-            {symmetry_on("zmin"), symmetry_on("zmax"),
-             displacement_on("xmin", [](const Vector&) -> Vector { return Vector::Zero(); }), traction_of(Load::tip)});
-        model.regions[0].stiffness =
-            std::make_shared<const MandelMatrix>(stiffness_matrix(model.regions[0].elasticity));
-        const double found = timoshenko({.nu = nu}) / deflection_by_one_ring(mesh, model) - 1.0;
-        const double due = largest_bending_error(mesh, place_unknowns(mesh, elastic_body(model)))->error;
-        report_row(fmt::format("in space, nu = {}, {} layers, {} times as long as thick", nu, across, ratio),
-                   {{"stiffness over the beam's, less 1", found}, {"formula", due}});
-        EXPECT_NEAR(found, due, std::max(across == 2 ? 0.1 : 0.015, std::abs(due) / 3.0));
-        const auto warning = bending_warning(mesh, model);
-        ASSERT_EQ(warning.has_value(), std::abs(due) > 0.03);
-        if (!warning) continue;
-        EXPECT_NE(
-            warning->find(fmt::format("about {:.0f} % too {}", 100.0 * std::abs(due), due > 0.0 ? "high" : "low")),
-            std::string::npos)
-            << *warning;
-        EXPECT_NE(warning->find("(elasticity that depends on the direction; measured within a third)"),
-                  std::string::npos)
-            << *warning;
-        if (ratio > across) continue;  // cells longer than the body is thick
-        model.regions[0].stiffness = nullptr;
-        EXPECT_FALSE(bending_warning(mesh, model).has_value());  // gradients along lines
-        model.boundary[0] = plane_on("zmin");
-        model.boundary[1] = plane_on("zmax");
-        EXPECT_FALSE(bending_warning(mesh, model).has_value());  // it fits cubics
-        model.split = energy_split("spectral");
-        EXPECT_TRUE(bending_warning(mesh, model).has_value());
-      }
 }
 
 }  // namespace
