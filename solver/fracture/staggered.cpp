@@ -48,6 +48,7 @@ StepOutcome Staggered::solve_step(const FractureState& start, FractureState& sta
   const StrengthDrive strength_before = strength_drive_of(start);
   const FreeStrained strained_before = free_strained(start);
   stiffness_.start_from(start, limits.duration);
+  stiffness_.hold(state);
   StepOutcome outcome = alternate(start, state, limits);
   if (outcome.failed || outcome.broke_too_much || outcome.collapsed) return outcome;
   // Reactions balance, and energies belong to the damage of the step.

@@ -30,6 +30,9 @@ class CellStiffness {
   /// Has cells at finite strain begin a step of this duration [s] at a state; 0: holds it. Before set() of this state
   /// or of later ones within the step.
   void start_from(const FractureState& start, double duration) { finite_.start_from(start.histories, duration); }
+  /// Takes a trial state, which is that of the start, to what linear laws with a history make of it in the step at held
+  /// strains. After start_step().
+  void hold(FractureState& state) { materials_.hold(state.histories); }
   /// The damage that degrades stiffness where it is not the states' own (stiffness_damage.h), for the states that
   /// follow.
   void see(CellField<double> damage) { seen_ = std::move(damage); }

@@ -49,6 +49,18 @@ void MaterialCells::start_step(double duration, const CellField<double>& shift) 
   });
 }
 
+void MaterialCells::hold(CellHistories& histories) {
+  parallel_for(any_ ? mesh_.n_cells() : 0, [&](Index c) {
+    if (!has(c) || material_[c]->relaxing() == nullptr) return;
+    const std::size_t n = material_[c]->history_size();
+    const Tensor strain = histories.gradient(c);
+    const std::span<double> of_law = histories.of(c).first(n);
+    const std::vector<double> from(of_law.begin(), of_law.end());
+    tangent_[c] = by_strain(material_[c]->update({strain, strain, duration(c), from}, of_law).tangent);
+    if (gaps_.has(c)) gaps_.hold(c, histories.of(c).subspan(n));
+  });
+}
+
 double MaterialCells::advance(Index cell, const CellMechanics& mechanics, const CellHistories& from,
                               CellHistories& to) {
   const Material& material = *material_[cell];

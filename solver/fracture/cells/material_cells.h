@@ -6,9 +6,10 @@
 // of the effective material + heat of what was idle. Strains are those less the eigenstrain.
 //
 // Within a load step each equilibrium is linear, with the stress linearised at the last strain eps_k by the consistent
-// tangent T: sigma_0 = sigma_0(eps_k) + T (eps - eps_k). The first of a step is elastic, as the load may reverse. The
-// strain is the least-squares one, which also enters the tractions of the faces. With any other, the converged solution
-// would depend on T, which changes with the direction of the increment, and the iteration would not converge.
+// tangent T: sigma_0 = sigma_0(eps_k) + T (eps - eps_k). The first of a step is elastic, as the load may reverse; that
+// of laws that are linear is the one of the step, about what their cells come to if held. The strain is the
+// least-squares one, which also enters the tractions of the faces. With any other, the converged solution would depend
+// on T, which changes with the direction of the increment, and the iteration would not converge.
 
 #include "mesh/mesh.h"
 #include "physics/elasticity/linear_stress.h"
@@ -27,6 +28,9 @@ class MaterialCells {
 
   /// Begins a load step, which takes `duration` [s]. `shift`: a_T of every cell (temperature_shift.h); empty: 1.
   void start_step(double duration, const CellField<double>& shift = {});
+  /// Takes cells of laws that are linear from the start of the step to its end at held strains: their stress is then
+  /// that of the step at any strain.
+  void hold(CellHistories& histories);
   /// Takes a cell from its history at the start of the step to its strain of now. Returns the error [J/m^3] of its
   /// energy density with the previous linearised stress; NaN if the material's step cannot be solved.
   double advance(Index cell, const CellMechanics& mechanics, const CellHistories& from, CellHistories& to);

@@ -126,6 +126,20 @@ void RelaxingGaps::tell(Index cell, std::span<const double> numbers, At when, Hi
   }
 }
 
+void RelaxingGaps::hold(Index cell, std::span<double> numbers) const {
+  const Kind& by = kind(cell);
+  const std::vector<PronyDecay>&shear = moment(cell).shear, &bulk = moment(cell).bulk;
+  const auto fade = [&](const PronyDecay& of, std::size_t at, std::size_t n) {
+    for (double& spring : numbers.subspan(at, n)) spring *= of.left;
+  };
+  for (std::size_t i = 0; by.has_pressure && i < shear.size(); ++i) fade(shear[i], branches_from + 2 * i, 2);
+  for (std::size_t k = 0; k < mesh_.faces_of_cell(cell).size(); ++k) {
+    const std::size_t at = by.per_cell() + k * by.per_face();
+    for (std::size_t i = 0; i < shear.size(); ++i) fade(shear[i], at + 3 + 3 * i, 3);
+    for (std::size_t j = 0; j < bulk.size(); ++j) fade(bulk[j], at + by.bulk_from() + 1 + j, 1);
+  }
+}
+
 void RelaxingGaps::advance(Index cell, const VolumeChanges& changes, const std::vector<FaceGap>& gaps,
                            std::span<const double> from, std::span<double> to) const {
   const Kind& by = kind(cell);

@@ -46,6 +46,8 @@ class RelaxingGaps {
   enum class At { start, end };
   /// Writes what a cell remembers into a history with room for all cells.
   void tell(Index cell, std::span<const double> numbers, At at, HistoryStress& history) const;
+  /// From the numbers at the start of the step to those at its end if nothing moves; energies are left as they are.
+  void hold(Index cell, std::span<double> numbers) const;
   /// From the numbers at the start of the step to those at the volume changes of now and the gaps, as Mesh::cell_faces.
   void advance(Index cell, const VolumeChanges& changes, const std::vector<FaceGap>& gaps, std::span<const double> from,
                std::span<double> to) const;
