@@ -75,7 +75,7 @@ struct FractureRun::Parts {
 
   // At given damage and with boundary values that are, displacements are proportional to the load.
   bool is_proportional() const {
-    return !staggered.stiffness().materials().any() && !model.is_finite_strain() && loading.is_proportional;
+    return !staggered.stiffness().has_histories() && !model.is_finite_strain() && loading.is_proportional;
   }
 
   bool follows_faces() const { return !model.interfaces.empty() && loading.controls_dissipation(); }
@@ -172,7 +172,7 @@ struct FractureRun::Parts {
   void show_finite_strain(const CellMechanics& mechanics, const FractureState& state, OutputFields& fields) {
     fields.deformation_gradient = CellField<Tensor>(mesh.n_cells());
     parallel_for(mesh.n_cells(), [&](Index c) {
-      const Tensor F = Tensor::Identity() + staggered.stiffness().thinned_gradient(c, mechanics, state);
+      const Tensor F = staggered.stiffness().deformation(c, mechanics, state);
       fields.deformation_gradient[c] = F;
       fields.strain[c] = 0.5 * (F.transpose() * F - Tensor::Identity());
       fields.stress[c] = staggered.stiffness().cauchy_stress(c, mechanics, state, unknowns.plane_normal);
@@ -264,7 +264,7 @@ OutputFields FractureRun::output(const FractureState& state) {
   if (model().is_finite_strain()) parts_->show_finite_strain(mechanics, state, fields);
   if (parts_->unknowns.plane_stress) fields.plane_stress_normal = parts_->unknowns.plane_normal;
   fields.interfaces = staggered.faces().output(staggered.momentum().balance(), state);
-  fields.history = staggered.stiffness().materials().output(state.histories);
+  fields.history = staggered.stiffness().output(state.histories);
   parts_->heat.show(state.heat, fields.history);
   staggered.fatigue().show(state.fatigue, fields.history);
   return fields;

@@ -20,6 +20,7 @@
 
 #include <chrono>
 #include <functional>
+#include <memory>
 #include <string>
 
 namespace pfdm {
@@ -47,8 +48,7 @@ class Staggered {
   const MomentumOperator& balance() const { return momentum_.balance(); }
   DamageEquation& damage_equation() { return damage_; }
   const DamageEquation& damage_equation() const { return damage_; }
-  CellStiffness& stiffness() { return stiffness_; }
-  const CellStiffness& stiffness() const { return stiffness_; }
+  const CellStiffness& stiffness() const { return *stiffness_; }
   const CellTemperature& temperature() const { return temperature_; }
   const CohesiveFaces& faces() const { return faces_; }
   const FatigueCells& fatigue() const { return fatigue_; }
@@ -109,8 +109,6 @@ class Staggered {
   /// Driving force of a strength model at the equilibrium of this state; empty without.
   StrengthDrive strength_drive_of(const FractureState& state);
   FreeStrained free_strained(const FractureState& state);
-  /// Sets psi_plus_ and finite_.
-  void find_driving_energy(const CellMechanics& mechanics, const FractureState& state);
   bool solve_damage(const FractureState& start, const FractureState& state, CellField<double>& d);
   struct PathLimit {
     double load = 0.0;    // largest load of the step
@@ -124,7 +122,7 @@ class Staggered {
   const Unknowns& unknowns_;
   StaggeredSettings settings_;
   MomentumSolver momentum_;
-  CellStiffness stiffness_;
+  std::unique_ptr<CellStiffness> stiffness_;
   CellTemperature temperature_;
   CohesiveFaces faces_;
   DamageEquation damage_;
@@ -133,9 +131,8 @@ class Staggered {
   bool has_newton_;  // the response to which is smooth enough for it
   StageClock clock_;
   Telling telling_;
-  CellField<double> psi_plus_;        // [J/m^3] of the last equilibrium
-  CellField<FiniteEnergies> finite_;  // of the last equilibrium; empty at small strain
-  StrengthDrive strength_;            // of the last equilibrium
+  CellEnergies of_cells_{};   // of the last equilibrium, as
+  StrengthDrive strength_{};  // this
 };
 
 }  // namespace pfdm

@@ -55,7 +55,7 @@ struct Staggered::Loop {
     faces_path = {.most_load = state.load, .dissipation = limits.dissipation};
     if (follows_faces() && start.load > 0.0) state.load = start.load;
     if (s.has_newton_ && !follows_path() && !(s.model_.viscosity > 0.0))
-      newton.emplace(s.mesh_, s.model_, s.stiffness_.degradable_part(state), s.momentum_, s.damage_);
+      newton.emplace(s.mesh_, s.model_, s.stiffness_->degradable_part(state), s.momentum_, s.damage_);
     if (s.model_.viscosity > 0.0) s.damage_.resist_change(s.model_.viscosity / limits.duration, start.damage);
   }
 
@@ -87,7 +87,7 @@ struct Staggered::Loop {
                                               .most_iterations = inner_iterations()};
     Equilibrium equilibrium = follows_faces() ? s.follow_faces(start, faces_path, tolerance, state)
                                               : s.solve_momentum(start, state, tolerance, inner_steps);
-    if (s.stiffness_.finite().any()) equilibrium = approach(tolerance, equilibrium);
+    if (s.model_.is_finite_strain()) equilibrium = approach(tolerance, equilibrium);
     const bool halves = equilibrium.residual <= 0.5 * equilibrium.initial_residual;
     stuck = halves || equilibrium.iterations < tolerance.most_iterations ? 0 : stuck + 1;
     outcome.stuck = stuck > stuck_at_most;
@@ -131,7 +131,7 @@ struct Staggered::Loop {
   // the load, is what was released. Of a linear body, whose displacements or tractions grow with the load, it is the
   // same; of others that release nothing the trapezoid of a curved force errs in the third order of the increment only.
   double stored_before() const {
-    const bool finite = s.stiffness_.finite().any();
+    const bool finite = s.model_.is_finite_strain();
     if (s.faces_.any() && finite && !(start.load > 0.0)) return energies.stored + energies.torn - torn_before;
     if (!s.faces_.any() || !(start.load > 0.0)) return energies.stored;
     const double growth = state.load / start.load, stored = start.energy.stored();
@@ -182,7 +182,7 @@ struct Staggered::Loop {
     const double energy_change = std::abs(energy - energy_before) / std::max(energy, 1e-300);
     energy_before = energy;
     ++outcome.iterations;
-    outcome.rest = {restless, change, energy_change, unsettled_share(energy), s.stiffness_.moving_cracks()};
+    outcome.rest = {restless, change, energy_change, unsettled_share(energy), s.stiffness_->moving_cracks()};
     outcome.settled = solved && damage_is_settled && outcome.rest.moving.empty() &&
                       energy_change + outcome.rest.stiffness < s.settings_.energy_tolerance &&
                       std::abs(load_scale - 1.0) < s.settings_.damage_tolerance;

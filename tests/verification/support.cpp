@@ -111,16 +111,16 @@ std::unique_ptr<ElasticSolution> solve_elastic(const Mesh& mesh, const FractureM
 std::vector<Vector> displacements_by_laws(const Mesh& mesh, const FractureModel& model, double damage) {
   const Unknowns unknowns = place_unknowns(mesh, elastic_body(model));
   MomentumSolver solver(mesh, unknowns);
-  CellStiffness stiffness(mesh, model);
-  stiffness.start_step(0.0);
+  const auto stiffness = make_cell_stiffness(mesh, model);
+  stiffness->start_step(0.0);
   FractureState state;
   state.step = 1;
   state.load = 1.0;
   state.damage = CellField<double>(mesh.n_cells(), damage);
   state.closure = CellField<double>(mesh.n_cells(), 0.0);
   state.displacement.assign(unknowns.n_unknowns(), Vector::Zero());
-  stiffness.set(state, solver);
-  EXPECT_TRUE(solve_with_laws(stiffness, {.ceiling = 1e-9, .floor = 1e-9}, solver, state).converged);
+  stiffness->set(state, solver);
+  EXPECT_TRUE(solve_with_laws(*stiffness, {.ceiling = 1e-9, .floor = 1e-9}, solver, state).converged);
   return solver.balance().patch_displacements(state.displacement);
 }
 

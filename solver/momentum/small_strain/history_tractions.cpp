@@ -47,6 +47,7 @@ void HistoryTractions::set(const CellField<IsotropicElasticity>& moduli, const C
   cells_.weigh(g, part);
   cells_.weigh_third_order(g);
   extrapolate_eigenstrains();
+  find_initial_tractions();
   set_coefficients();
 }
 
@@ -96,31 +97,38 @@ void HistoryTractions::visit_sides(Index cell, const Visit& visit) const {
 
 void HistoryTractions::bear_gaps(const HistoryStress& history, const CellField<double>& g) {
   gaps_ = {};
+  initial_.assign(skeleton_.n_turns(), Vector::Zero());
   if (history.gaps.empty()) return;
   gaps_ = CellField<GapStiffness>(stress_.size());
-  initial_of_gaps_.assign(skeleton_.n_turns(), Vector::Zero());
   parallel_for(stress_.size(), [&](Index c) {
     gaps_[c] = gap_stiffness(c, history);
     if (!(gaps_[c].by_shear > 0.0)) return;
     visit_sides(c, [&](std::size_t at, Index, const Vector& n, const FaceSkeleton::SignedForce& on) {
       const GapStress& left = history.gaps[at];
-      initial_of_gaps_[skeleton_.turn_at(on)] =
+      initial_[skeleton_.turn_at(on)] =
           g[c] * (momentum_faces::scale(gaps_[c].by_shear, 1.0, n, left.shear) + gaps_[c].by_bulk * left.bulk * n);
     });
+  });
+}
+
+// Of the cells, beside those of the gaps, which are outwards. Normals lead outwards from P and from sides, into N.
+void HistoryTractions::find_initial_tractions() {
+  parallel_for(count_of(skeleton_.links), [&](Index i) {
+    const momentum_faces::Link& link = skeleton_.links[i];
+    const std::size_t P = FaceSkeleton::turn_P(i), N = FaceSkeleton::turn_N(i);
+    initial_[P] = IsotropicTractions::initial_traction(link.P, link.n, P) + initial_[P];
+    initial_[N] = IsotropicTractions::initial_traction(link.N, link.n, N) - initial_[N];
+  });
+  parallel_for(count_of(skeleton_.sides), [&](Index i) {
+    const momentum_faces::Side& side = skeleton_.sides[i];
+    const std::size_t turn = skeleton_.turn_of_side(i);
+    initial_[turn] = IsotropicTractions::initial_traction(side.cell, side.n, turn) + initial_[turn];
   });
 }
 
 void HistoryTractions::find_linear(const std::vector<Vector>& u, Sweep& sweep) const {
   auto& s = static_cast<IsotropicSweep&>(sweep);
   sweep_faces(u, s, SweptStress{{stress_, of_stress()}, s.stress});
-}
-
-// n leads outwards from P and from sides, into N.
-Vector HistoryTractions::initial_traction(Index cell, const Vector& n, std::size_t turn) const {
-  const Vector of_cell = IsotropicTractions::initial_traction(cell, n, turn);
-  if (gaps_.size() == 0) return of_cell;
-  const bool is_N = !skeleton_.is_side(turn) && turn == FaceSkeleton::turn_N(turn / 2);
-  return of_cell + (is_N ? -1.0 : 1.0) * initial_of_gaps_[turn];
 }
 
 double HistoryTractions::free_volume_change(Index cell) const {

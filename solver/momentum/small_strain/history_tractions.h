@@ -37,7 +37,7 @@ class HistoryTractions final : public IsotropicTractions {
  private:
   bool has_initial_stress() const override { return true; }
   Tensor initial_stress(Index cell) const override { return to_tensor(stress_[cell].initial); }
-  Vector initial_traction(Index cell, const Vector& n, std::size_t turn) const override;
+  Vector initial_traction(Index, const Vector&, std::size_t turn) const override { return initial_[turn]; }
   double free_volume_change(Index cell) const override;
   Vector own_traction(Index cell, const Vector& n, const Vector& d, std::size_t turn,
                       const IsotropicSweep& s) const override;
@@ -46,6 +46,7 @@ class HistoryTractions final : public IsotropicTractions {
 
   void give_to_pressures(const HistoryStress& history, const CellField<double>& g);
   void bear_gaps(const HistoryStress& history, const CellField<double>& g);
+  void find_initial_tractions();
   void add_gaps(Index cell, const FaceMoves& moves, CellMechanics& result) const;
   // Adds to a gap, as strain, what the gradient on a side has beyond that of the cell.
   void add_strain_on_side(Index cell, const Vector& n, std::size_t turn, const Sweep& sweep, FaceGap& gap) const;
@@ -63,10 +64,10 @@ class HistoryTractions final : public IsotropicTractions {
   // K_s / mu of a cell with a pressure.
   double moderate_bulk(Index cell) const { return cells_.pressure().moderate_ratio(cell) + 2.0 / 3.0; }
 
-  CellField<LinearStress> stress_;       // condensed in plane stress; less the pressure
-  CellField<double> pressure_;           // p_0 [Pa]; empty without pressures
-  CellField<GapStiffness> gaps_;         // empty without relaxing cells, as
-  std::vector<Vector> initial_of_gaps_;  // by turn, outwards from the cell [Pa]
+  CellField<LinearStress> stress_;  // condensed in plane stress; less the pressure
+  CellField<double> pressure_;      // p_0 [Pa]; empty without pressures
+  CellField<GapStiffness> gaps_;    // empty without relaxing cells
+  std::vector<Vector> initial_;     // tractions by turn, on the normals of links and sides [Pa]
 };
 
 }  // namespace pfdm

@@ -129,7 +129,7 @@ TEST_P(FiniteSprings, AreTheDerivative) {
   FractureModel model = bonded_blocks(mesh, law, from_young_poisson(2e6, GetParam()));
   model.boundary = {displacement_on("xmin", [](const Vector&) -> Vector { return Vector::Zero(); })};
   const Unknowns unknowns = place_unknowns(mesh, elastic_body(model));
-  const CellStiffness cells(mesh, model);
+  const auto cells = make_cell_stiffness(mesh, model);
   const CohesiveFaces faces(mesh, model, unknowns);
   MomentumSolver momentum(mesh, unknowns);
   const std::vector<InterfaceHistory> virgin = faces.virgin_histories();
@@ -147,7 +147,7 @@ TEST_P(FiniteSprings, AreTheDerivative) {
     return forces;
   };
   const auto linearise = [&] {
-    cells.set(state, momentum);
+    cells->set(state, momentum);
     faces.linearise(state.displacement, virgin, virgin, CohesiveFaces::Way::tangent, momentum);
   };
   state.displacement = u;

@@ -42,8 +42,8 @@ struct Equilibrated {
 inline Equilibrated equilibrium(const Mesh& mesh, const FractureModel& model, CellField<double> damage) {
   const Unknowns unknowns = place_unknowns(mesh, elastic_body(model));
   MomentumSolver solver(mesh, unknowns);
-  CellStiffness stiffness(mesh, model);
-  stiffness.start_step(0.0);
+  const auto stiffness = make_cell_stiffness(mesh, model);
+  stiffness->start_step(0.0);
   Equilibrated result;
   const std::size_t n = mesh.n_cells();
   result.state.damage = std::move(damage);
@@ -52,17 +52,17 @@ inline Equilibrated equilibrium(const Mesh& mesh, const FractureModel& model, Ce
   result.state.load = 1.0;
   constexpr MomentumSolver::Tolerance tight{.ceiling = 1e-12, .floor = 1e-12};
   for (double unsettled = 1.0; unsettled > 1e-13 && result.iterations < 50;) {
-    stiffness.set(result.state, solver);
-    const Equilibrium on = stiffness.is_linearised() ? solve_with_laws(stiffness, tight, solver, result.state)
-                                                     : solver.solve(1.0, tight, result.state.displacement);
+    stiffness->set(result.state, solver);
+    const Equilibrium on = stiffness->is_linearised() ? solve_with_laws(*stiffness, tight, solver, result.state)
+                                                      : solver.solve(1.0, tight, result.state.displacement);
     EXPECT_TRUE(on.converged) << on.residual;
     result.iterations += std::max<Index>(1, on.newton_steps);
     result.krylov += on.iterations;
     result.cells = solver.balance().mechanics(result.state.displacement, MomentumOperator::Wanted::all,
-                                              stiffness.degradable_part(result.state));
+                                              stiffness->degradable_part(result.state));
     result.energy = 0.0;
     for (const double energy : result.cells.energy) result.energy += energy;
-    unsettled = stiffness.follow(result.cells, result.state) / result.energy;
+    unsettled = stiffness->follow(result.cells, result.state) / result.energy;
   }
   EXPECT_LT(result.iterations, 50);
   result.reaction.assign(mesh.patches.size(), Vector::Zero());

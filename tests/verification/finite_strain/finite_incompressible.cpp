@@ -72,7 +72,7 @@ Errors solve_pressed(const Mesh& mesh, double nu) {
       };
   const FractureModel model = finite_body(mesh, material, boundary);
   const Unknowns unknowns = place_unknowns(mesh, elastic_body(model));
-  const CellStiffness stiffness(mesh, model);
+  const auto stiffness = make_cell_stiffness(mesh, model);
   MomentumSolver momentum(mesh, unknowns);
   FractureState state;
   state.displacement.assign(unknowns.n_unknowns(), Vector::Zero());
@@ -89,9 +89,9 @@ Errors solve_pressed(const Mesh& mesh, double nu) {
       force[unknowns.node_of_face[f]] =
           state.load * mesh.face_area[f].norm() * normal_stress(mesh.face_centre[f]) * Vector::UnitZ();
     momentum.set_body_force(std::move(force));
-    stiffness.set(state, momentum);
+    stiffness->set(state, momentum);
     const Equilibrium end =
-        solve_finite(stiffness, {.ceiling = 1e-7, .floor = 1e-7, .most_iterations = 3000}, momentum, state);
+        solve_finite(*stiffness, {.ceiling = 1e-7, .floor = 1e-7, .most_iterations = 3000}, momentum, state);
     EXPECT_TRUE(end.converged) << end.residual;
     errors.krylov_iterations += end.iterations;
   }

@@ -3,7 +3,7 @@
 #include "tests/verification/finite.h"
 
 #include "mesh/generators/sphere_sector.h"
-#include "solver/fracture/cells/cell_stiffness.h"
+#include "solver/fracture/cells/cell_stiffness->h"
 #include "solver/momentum/body/rigid_motion.h"
 
 #include <fmt/format.h>
@@ -143,7 +143,7 @@ TEST(FollowerPressure, HasNoResultantOnAClosedSurface) {
   for (const char* patch : {"xmin", "xmax", "ymin", "ymax", "zmin", "zmax"}) all.push_back(pressed(patch, mu));
   const BentCube cube(all);
   MomentumSolver momentum(cube.mesh, cube.unknowns);
-  CellStiffness(cube.mesh, cube.model).set(cube.state, momentum);
+  make_cell_stiffness(cube.mesh, cube.model)->set(cube.state, momentum);
   Vector sum = Vector::Zero();
   double size = 0.0;
   for (const Vector& force : momentum.balance().traction_forces(1.0)) {
@@ -159,7 +159,7 @@ TEST(FollowerPressure, HasItsTangent) {
   const BentCube cube({symmetry_on("zmin"), symmetry_on("xmin"), symmetry_on("ymin"), pressed("xmax", 0.6 * mu),
                        pressed("zmax", -0.8 * mu), pressed("ymax", 0.3 * mu)});
   MomentumSolver momentum(cube.mesh, cube.unknowns);
-  const CellStiffness stiffness(cube.mesh, cube.model);
+  const auto stiffness = make_cell_stiffness(cube.mesh, cube.model);
   std::vector<Vector> along(cube.unknowns.n_unknowns(), Vector::Zero());
   for (Index i = 0; i < cube.unknowns.n_nodes(); ++i) {
     const Vector x = cube.unknowns.place(cube.mesh, i);
@@ -168,7 +168,7 @@ TEST(FollowerPressure, HasItsTangent) {
   const auto unbalanced = [&](double part) {
     FractureState moved = cube.state;
     for (std::size_t i = 0; i < along.size(); ++i) moved.displacement[i] += part * along[i];
-    stiffness.set(moved, momentum);
+    stiffness->set(moved, momentum);
     return momentum.unbalanced_forces(moved.load, moved.displacement);
   };
   constexpr double step = 1e-5;

@@ -32,8 +32,8 @@ struct Answer {
 inline Answer equilibrium(const Mesh& mesh, const FractureModel& model, const CellField<double>& damage) {
   const Unknowns unknowns = place_unknowns(mesh, elastic_body(model));
   MomentumSolver solver(mesh, unknowns);
-  CellStiffness stiffness(mesh, model);
-  stiffness.start_step(0.0);
+  const auto stiffness = make_cell_stiffness(mesh, model);
+  stiffness->start_step(0.0);
   const std::size_t n = mesh.n_cells();
   FractureState state;
   state.step = 1;
@@ -46,20 +46,20 @@ inline Answer equilibrium(const Mesh& mesh, const FractureModel& model, const Ce
   answer.driving = answer.stored = CellField<double>(n);
   double unsettled = 1.0;
   for (int k = 0; unsettled > 1e-13 && k < 60; ++k) {
-    stiffness.set(state, solver);
-    const Equilibrium on = stiffness.is_linearised() ? solve_with_laws(stiffness, tight, solver, state)
-                                                     : solver.solve(1.0, tight, state.displacement);
+    stiffness->set(state, solver);
+    const Equilibrium on = stiffness->is_linearised() ? solve_with_laws(*stiffness, tight, solver, state)
+                                                      : solver.solve(1.0, tight, state.displacement);
     EXPECT_LT(on.residual, 1e-11);
     answer.residual = on.residual;
-    answer.cells =
-        solver.balance().mechanics(state.displacement, MomentumOperator::Wanted::all, stiffness.degradable_part(state));
+    answer.cells = solver.balance().mechanics(state.displacement, MomentumOperator::Wanted::all,
+                                              stiffness->degradable_part(state));
     double energy = 0.0;
-    for (Index c = 0; c < mesh.n_cells(); ++c) energy += stiffness.stored_energy(c, answer.cells, state);
-    unsettled = stiffness.follow(answer.cells, state) / std::max(energy, 1e-300);
+    for (Index c = 0; c < mesh.n_cells(); ++c) energy += stiffness->stored_energy(c, answer.cells, state);
+    unsettled = stiffness->follow(answer.cells, state) / std::max(energy, 1e-300);
   }
   for (Index c = 0; c < mesh.n_cells(); ++c) {
-    answer.driving[c] = stiffness.driving_energy(c, answer.cells, state);
-    answer.stored[c] = stiffness.stored_energy(c, answer.cells, state);
+    answer.driving[c] = stiffness->driving_energy(c, answer.cells, state);
+    answer.stored[c] = stiffness->stored_energy(c, answer.cells, state);
   }
   return answer;
 }

@@ -1,0 +1,165 @@
+#include "solver/fracture/cells/small_stiffness.h"
+
+#include "solver/fracture/cells/degraded_heat.h"
+#include "solver/parallel.h"
+
+#include <cmath>
+
+namespace pfdm {
+
+SmallStiffness::SmallStiffness(const Mesh& mesh, const FractureModel& model)
+    : CellStiffness(mesh, model), materials_(mesh, model), is_isotropic_(model.is_isotropic()) {
+  for (const RegionModel& region : model.regions) laws_.push_back(make_cell_law(model, region));
+}
+
+void SmallStiffness::start_step(double duration, const CellField<double>& shift) {
+  materials_.start_step(duration, shift);
+  CellStiffness::start_step(duration, shift);
+}
+
+void SmallStiffness::set(const FractureState& state, MomentumSolver& momentum) const {
+  const CellField<double> g = factors(state);
+  momentum.set_eigenstrain(state.step > 0 ? std::optional(state.load) : std::nullopt, state.heat.felt);
+  if (!is_isotropic_) {
+    momentum.set_law(strain_law(g, state.closure), g, state.displacement);
+    return;
+  }
+  CellField<IsotropicElasticity> moduli(mesh_.n_cells());
+  parallel_for(mesh_.n_cells(), [&](Index c) { moduli[c] = law(c).secant(g[c], state.closure[c]); });
+  momentum.set_moduli(moduli, g, materials_.any() ? with_histories(state, g, moduli) : HistoryStress());
+}
+
+bool SmallStiffness::has_degradable_part(Index cell) const {
+  return is_damageable(cell) && !materials_.has(cell) && model_.split_of(model_.in_cell(mesh_, cell)).is_variational();
+}
+
+bool SmallStiffness::depends_on_strain() const {
+  for (Index c = 0; c < mesh_.n_cells(); ++c)
+    if (is_damageable(c) && (!has_degradable_part(c) || law(c).depends_on_strain())) return true;
+  return false;
+}
+
+CellField<IsotropicElasticity> SmallStiffness::degradable_part(const FractureState& state) const {
+  CellField<IsotropicElasticity> part(mesh_.n_cells(), {});
+  parallel_for(mesh_.n_cells(), [&](Index c) {
+    if (has_degradable_part(c)) part[c] = law(c).degradable_part(state.closure[c]);
+  });
+  return part;
+}
+
+StrainLaw SmallStiffness::strain_law(const CellField<double>& g, const CellField<double>& closure) const {
+  struct At {
+    CellField<double> g, closure;
+  };
+  const auto at = std::make_shared<const At>(At{g, closure});
+  return {
+      .tangent = [this, at](Index c, const Tensor& strain) { return law(c).tangent(strain, at->g[c], at->closure[c]); },
+      .degradable = [this](Index c, const Tensor& strain) -> Tensor {
+        return has_degradable_part(c) ? law(c).degradable_stress(strain) : Tensor::Zero();
+      }};
+}
+
+// The part of the stiffness that the split keeps beyond g times it is elastic.
+HistoryStress SmallStiffness::with_histories(const FractureState& state, const CellField<double>& g,
+                                             CellField<IsotropicElasticity>& moduli) const {
+  HistoryStress history = materials_.history_stress(state.histories);
+  parallel_for(mesh_.n_cells(), [&](Index c) {
+    LinearStress& stress = history.stress[c];
+    stress.C = stiffness_matrix(moduli[c]);
+    if (!materials_.has(c)) return;
+    const LinearStress effective = materials_.linearised(c, state.histories);
+    stress.C += g[c] * (effective.C - stiffness_matrix(elasticity(c)));
+    stress.initial = g[c] * effective.initial;
+    const IsotropicElasticity beyond = materials_.beyond_elasticity(c);
+    moduli[c].lambda += g[c] * beyond.lambda;
+    moduli[c].mu += g[c] * beyond.mu;
+  });
+  return history;
+}
+
+double SmallStiffness::integrate(const CellMechanics& mechanics, const FractureState& start, FractureState& state) {
+  if (!materials_.any()) return 0.0;
+  return parallel_sum(mesh_.n_cells(), [&](Index c) {
+    if (!materials_.has(c)) return 0.0;
+    const double wrong = materials_.advance(c, mechanics, start.histories, state.histories);
+    return factor(c, state.damage[c]) * wrong * mesh_.cell_volume[c];
+  });
+}
+
+CellEnergies SmallStiffness::energies(const CellMechanics& mechanics, const FractureState& state) const {
+  const std::size_t n = mesh_.n_cells();
+  CellEnergies energies{.driving = CellField<double>(n), .stored = CellField<double>(n)};
+  if (materials_.any()) energies.idle = CellField<double>(n, 0.0);
+  parallel_for(mesh_.n_cells(), [&](Index c) {
+    if (!materials_.has(c)) {
+      energies.driving[c] = driving_energy(c, mechanics);
+      energies.stored[c] = mechanics.energy[c];
+      return;
+    }
+    const MaterialEnergy material = materials_.energy(c, state.histories);
+    energies.driving[c] = material.driving;
+    energies.stored[c] = stored_energy(c, mechanics, material, state.damage[c]);
+    energies.idle[c] = material.idle;
+  });
+  return energies;
+}
+
+double SmallStiffness::driving_energy(Index cell, const CellMechanics& mechanics) const {
+  return has_degradable_part(cell) ? mechanics.part_energy[cell]
+                                   : law(cell).driving_energy(mechanics.elastic_strain(cell));
+}
+
+double SmallStiffness::driving_energy(Index cell, const CellMechanics& mechanics, const FractureState& state) const {
+  return materials_.has(cell) ? materials_.energy(cell, state.histories).driving : driving_energy(cell, mechanics);
+}
+
+double SmallStiffness::stored_energy(Index cell, const CellMechanics& mechanics, const FractureState& state) const {
+  if (!materials_.has(cell)) return mechanics.energy[cell];
+  return stored_energy(cell, mechanics, materials_.energy(cell, state.histories), state.damage[cell]);
+}
+
+// Half the work on the elastic strain, and what is locked up.
+double SmallStiffness::stored_energy(Index cell, const CellMechanics& mechanics, const MaterialEnergy& material,
+                                     double d) const {
+  const double on_inelastic = 0.5 * contract(mechanics.stress[cell], material.inelastic);
+  const double locked = factor(cell, d) * material.locked;
+  return mechanics.energy[cell] + mesh_.cell_volume[cell] * (locked - on_inelastic);
+}
+
+Tensor SmallStiffness::undamaged_stress(Index cell, const CellMechanics& mechanics, const FractureState&) const {
+  return stress(elasticity(cell), mechanics.elastic_strain(cell));
+}
+
+double SmallStiffness::plastic_dissipation(Index cell, const FractureState& from, const FractureState& to) const {
+  if (!materials_.has(cell)) return 0.0;
+  const double g_from = factor(cell, from.damage[cell]), g_to = factor(cell, to.damage[cell]);
+  return mesh_.cell_volume[cell] *
+         degraded_heat(g_from, materials_.energy(cell, from.histories), g_to, materials_.energy(cell, to.histories));
+}
+
+double SmallStiffness::follow(const CellMechanics& mechanics, FractureState& state) {
+  return parallel_sum(mesh_.n_cells(),
+                      [&](Index c) { return law(c).has_secant() ? follow_with_closure(c, mechanics, state) : 0.0; });
+}
+
+// The strain with the volume change that belongs to the cell's mean stress. The tractions hold a closed crack; the
+// volume change of the face displacements may have the other sign where the strain varies within a cell, and the crack
+// would open and close for ever.
+Tensor SmallStiffness::closing_strain(Index cell, const CellMechanics& mechanics, double g, double closure) const {
+  const Tensor strain = mechanics.elastic_strain(cell);
+  const double K = law(cell).secant(g, closure).bulk_modulus();
+  return deviator(strain) + mechanics.stress[cell].trace() / (9.0 * K) * Tensor::Identity();
+}
+
+double SmallStiffness::follow_with_closure(Index cell, const CellMechanics& mechanics, FractureState& state) {
+  const double g = factor(cell, seen(cell, state)), before = state.closure[cell];
+  const Tensor strain = closing_strain(cell, mechanics, g, before);
+  const double wanted = law(cell).closure(strain);
+  state.closure[cell] = closures_.next(cell, g, before, wanted);
+  if (wanted == before) return 0.0;
+  const double wrong =
+      energy_density(law(cell).secant(g, wanted), strain) - energy_density(law(cell).secant(g, before), strain);
+  return mesh_.cell_volume[cell] * std::abs(wrong);
+}
+
+}  // namespace pfdm
