@@ -25,30 +25,29 @@ Staggered::Staggered(const Mesh& mesh, const FractureModel& model, const Unknown
       unknowns_(unknowns),
       settings_(settings),
       momentum_(mesh, unknowns, settings.linear),
-      stiffness_(mesh, model),
+      stiffness_(make_cell_stiffness(mesh, model)),
       temperature_(mesh, model),
       faces_(mesh, model, unknowns),
       damage_(mesh, model, unknowns.plane_normal),
       fatigue_(mesh, model),
-      way_(stiffness_.descends() ? Relaxation::Way::momentum : Relaxation::Way::secant),
-      has_newton_(way_ == Relaxation::Way::momentum && !stiffness_.depends_on_strain() && !faces_.any() &&
-                  !model.has_eigenstrain() && CoupledNewton::suits(mesh, unknowns)),
-      psi_plus_(mesh.n_cells()) {
-  if (stiffness_.finite().any()) stiffness_.set_own_sides(momentum_.own_sides_at_finite_strain());
+      way_(stiffness_->descends() ? Relaxation::Way::momentum : Relaxation::Way::secant),
+      has_newton_(way_ == Relaxation::Way::momentum && !stiffness_->depends_on_strain() && !faces_.any() &&
+                  !model.has_eigenstrain() && CoupledNewton::suits(mesh, unknowns)) {
+  if (model.is_finite_strain()) stiffness_->set_own_sides(momentum_.own_sides_at_finite_strain());
 }
 
 StepOutcome Staggered::solve_step(const FractureState& start, FractureState& state, const StepLimits& limits,
                                   const IterationWatch& watch) {
-  stiffness_.start_step(limits.duration, temperature_.factors(start, state.load));
+  stiffness_->start_step(limits.duration, temperature_.factors(start, state.load));
   faces_.start_step(limits.duration);
   telling_ = {.watch = watch, .last = {.step = state.step, .load = state.load}, .after = telling_.after};
   momentum_.start_afresh();  // as a restarted run does
-  if (model_.has_strength() || model_.has_eigenstrain()) stiffness_.start_from(start, 0.0);
+  if (model_.has_strength() || model_.has_eigenstrain()) stiffness_->start_from(start, 0.0);
   set_toughness(start);
   const StrengthDrive strength_before = strength_drive_of(start);
   const FreeStrained strained_before = free_strained(start);
-  stiffness_.start_from(start, limits.duration);
-  stiffness_.hold(state);
+  stiffness_->start_from(start, limits.duration);
+  stiffness_->hold(state);
   StepOutcome outcome = alternate(start, state, limits);
   if (outcome.failed || outcome.broke_too_much || outcome.collapsed) return outcome;
   // Reactions balance, and energies belong to the damage of the step.
@@ -74,7 +73,7 @@ StepOutcome Staggered::solve_step(const FractureState& start, FractureState& sta
   outcome.energy.viscous_dissipation = damage_.viscous_dissipation(state.damage);
   outcome.energy.strength_dissipation =
       strength_dissipation(mesh_, model_, strength_before, strength_, start.damage, state.damage);
-  outcome.energy.plastic_dissipation = stiffness_.plastic_dissipation(start, state);
+  outcome.energy.plastic_dissipation = stiffness_->plastic_dissipation(start, state);
   outcome.energy.eigenstrain_work = eigenstrain_work(strained_before, free_strained(state));
   accumulate_fatigue(state);
   return outcome;
@@ -86,7 +85,7 @@ void Staggered::set_toughness(const FractureState& state) {
 
 void Staggered::accumulate_fatigue(FractureState& state) {
   if (!fatigue_.any()) return;
-  fatigue_.accumulate(psi_plus_, damage_.stiffness_damage().of(state.damage), state.fatigue);
+  fatigue_.accumulate(of_cells_.driving, damage_.stiffness_damage().of(state.damage), state.fatigue);
   lower_toughness(state);
 }
 
@@ -125,7 +124,7 @@ CellField<double> Staggered::surface_energy_density(const FractureState& state) 
 }
 
 bool Staggered::has_reduced_energy() const {
-  return !faces_.any() && !model_.has_eigenstrain() && !stiffness_.finite().any() && !stiffness_.materials().any() &&
+  return !faces_.any() && !model_.has_eigenstrain() && !model_.is_finite_strain() && !stiffness_->has_histories() &&
          !model_.has_strength() && !(model_.viscosity > 0.0) && !model_.motion.any() &&
          model_.irreversibility != Irreversibility::history;
 }
@@ -135,9 +134,9 @@ double Staggered::reduced_energy(FractureState state) {
   momentum_.solve(state.load, {.reduction = 0.0, .ceiling = last_tolerance, .floor = last_tolerance},
                   state.displacement);
   const CellMechanics mechanics = momentum_.balance().mechanics(
-      state.displacement, MomentumOperator::Wanted::without_gradient, stiffness_.degradable_part(state));
+      state.displacement, MomentumOperator::Wanted::without_gradient, stiffness_->degradable_part(state));
   double energy = damage_.renewed_fracture_energy(state.damage);
-  energy += parallel_sum(mesh_.n_cells(), [&](Index c) { return stiffness_.stored_energy(c, mechanics, state); });
+  energy += parallel_sum(mesh_.n_cells(), [&](Index c) { return stiffness_->stored_energy(c, mechanics, state); });
   return energy + potential_of_loads(balance(), state);
 }
 
@@ -146,30 +145,33 @@ FreeStrained Staggered::free_strained(const FractureState& state) {
   degrade(state);
   CellMechanics mechanics =
       momentum_.balance().mechanics(state.displacement, MomentumOperator::Wanted::without_gradient);
-  return {stiffness_.eigenstrain_moments(mechanics, state, unknowns_.plane_normal), std::move(mechanics.eigenstrain)};
+  return {stiffness_->eigenstrain_moments(mechanics, state, unknowns_.plane_normal), std::move(mechanics.eigenstrain)};
 }
 
 void Staggered::hold(const FractureState& state) {
-  stiffness_.start_from(state, 0.0);
+  stiffness_->start_from(state, 0.0);
   degrade(state);
 }
 
 void Staggered::degrade(const FractureState& state) {
   const auto lap = clock_.lap("moduli_and_preconditioner");
-  if (damage_.stiffness_damage().any()) stiffness_.see(damage_.stiffness_damage().of(state.damage));
-  stiffness_.set(state, momentum_);
+  if (damage_.stiffness_damage().any()) stiffness_->see(damage_.stiffness_damage().of(state.damage));
+  stiffness_->set(state, momentum_);
 }
 
 Equilibrium Staggered::solve_momentum(const FractureState& start, FractureState& state,
                                       const MomentumSolver::Tolerance& tolerance, Index most_newton_steps) {
   const auto lap = clock_.lap("momentum");
   if (faces_.any()) {
-    const CellLaws cells = stiffness_.is_linearised() ? [&] { stiffness_.set(state, momentum_); } : CellLaws();
+    const CellLaws cells = stiffness_->is_linearised() ? [&] { stiffness_->set(state, momentum_); } : CellLaws();
     return solve_with_faces(faces_, start.interfaces, state.load, tolerance, cells, momentum_, state.displacement,
                             state.interfaces, watch_of_balance(state));
   }
-  if (stiffness_.finite().any()) return solve_finite(stiffness_, tolerance, momentum_, state, most_newton_steps);
-  if (stiffness_.is_linearised()) return solve_with_laws(stiffness_, tolerance, momentum_, state);
+  switch (stiffness_->balance_is()) {
+    case BalanceIs::finite: return solve_finite(*stiffness_, tolerance, momentum_, state, most_newton_steps);
+    case BalanceIs::convex: return solve_with_laws(*stiffness_, tolerance, momentum_, state);
+    case BalanceIs::linear: break;
+  }
   return momentum_.solve(state.load, tolerance, state.displacement);
 }
 
@@ -182,37 +184,26 @@ Equilibrium Staggered::follow_faces(const FractureState& start, const FacesPath&
 Staggered::Energies Staggered::update_driving_energy(const FractureState& start, FractureState& state, bool settles) {
   const auto lap = clock_.lap("driving_energy");
   CellMechanics mechanics = momentum_.balance().mechanics(
-      state.displacement, MomentumOperator::Wanted::without_gradient, stiffness_.degradable_part(state));
-  Energies energies{.unsettled = stiffness_.integrate(mechanics, start, state)};
-  find_driving_energy(mechanics, state);
-  energies.stored = parallel_sum(mesh_.n_cells(), [&](Index c) {
-    return finite_.size() > 0 ? stiffness_.stored_energy(c, finite_[c], state.damage[c])
-                              : stiffness_.stored_energy(c, mechanics, state);
-  });
+      state.displacement, MomentumOperator::Wanted::without_gradient, stiffness_->degradable_part(state));
+  Energies energies{.unsettled = stiffness_->integrate(mechanics, start, state)};
+  of_cells_ = stiffness_->energies(mechanics, state);
+  energies.stored = parallel_sum(mesh_.n_cells(), [&](Index c) { return of_cells_.stored[c]; });
   energies.interfaces = faces_.advance(momentum_.balance(), state.displacement, start.interfaces, state.interfaces);
   energies.stored += energies.interfaces;
   energies.torn = faces_.dissipated(faces_.virgin_histories(), state.interfaces);
-  strength_ = strength_drive(mesh_, model_, stiffness_, mechanics, state, psi_plus_);
+  strength_ = strength_drive(mesh_, model_, *stiffness_, mechanics, state, of_cells_.driving);
   energies.residual = drive(start, state, 1.0);
-  if (settles) energies.unsettled += stiffness_.follow(mechanics, state);
+  if (settles) energies.unsettled += stiffness_->follow(mechanics, state);
   return energies;
-}
-
-void Staggered::find_driving_energy(const CellMechanics& mechanics, const FractureState& state) {
-  if (stiffness_.finite().any()) finite_ = stiffness_.finite_energies(mechanics, state);
-  parallel_for(mesh_.n_cells(), [&](Index c) {
-    psi_plus_[c] = finite_.size() > 0 ? stiffness_.driving_energy(c, finite_[c], state.damage[c]).value
-                                      : stiffness_.driving_energy(c, mechanics, state);
-  });
 }
 
 StrengthDrive Staggered::strength_drive_of(const FractureState& state) {
   if (!model_.has_strength()) return {};
   degrade(state);
   const CellMechanics mechanics = momentum_.balance().mechanics(
-      state.displacement, MomentumOperator::Wanted::without_gradient, stiffness_.degradable_part(state));
-  find_driving_energy(mechanics, state);
-  return strength_drive(mesh_, model_, stiffness_, mechanics, state, psi_plus_);
+      state.displacement, MomentumOperator::Wanted::without_gradient, stiffness_->degradable_part(state));
+  of_cells_ = stiffness_->energies(mechanics, state);
+  return strength_drive(mesh_, model_, *stiffness_, mechanics, state, of_cells_.driving);
 }
 
 // The driving energy of the last equilibrium with its displacements times `scale`. Returns what the residual stiffness
@@ -225,10 +216,10 @@ double Staggered::drive(const FractureState& start, FractureState& state, double
     damage_.set_driving_force(std::move(force));
   }
   return parallel_sum(mesh_.n_cells(), [&](Index c) {
-    const double psi = scale * scale * psi_plus_[c];
+    const double psi = scale * scale * of_cells_.driving[c];
     const double opening = strength_.closed.size() > 0 ? psi - scale * scale * strength_.closed[c] : psi;
     state.driving_energy[c] = history ? std::max(opening, start.driving_energy[c]) : opening;
-    return stiffness_.residual_energy(c, psi, state);
+    return stiffness_->residual_energy(c, psi, of_cells_.idle.size() > 0 ? of_cells_.idle[c] : 0.0, state);
   });
 }
 
@@ -243,11 +234,11 @@ bool Staggered::solve_damage(const FractureState& start, const FractureState& st
   const auto lap = clock_.lap("damage");
   const CellField<double> lower = model_.lower_bound(start.damage);
   const ScalarTolerance tolerance{.reduction = 1e-3};
-  if (finite_.size() == 0 || model_.irreversibility == Irreversibility::history)
+  if (!of_cells_.law || model_.irreversibility == Irreversibility::history)
     return damage_.solve(state.driving_energy, lower, tolerance, d).converged;
   const DrivingLaw law = [&](Index c, double at) {
     const bool is_closed = strength_.closed.size() > 0 && strength_.closed[c] > 0.0;
-    return is_closed ? DrivingAt{} : stiffness_.driving_energy(c, finite_[c], at);
+    return is_closed ? DrivingAt{} : of_cells_.law(c, at);
   };
   return damage_.solve(law, lower, tolerance, d).converged;
 }

@@ -1,6 +1,6 @@
 #pragma once
 // The stress of cells of small strain without a history: by their strain, and by what damage has left of them. One law
-// a region, by its elasticity and its energy split (physics/damage/energy_split.h).
+// a region, by its elasticity and its energy split (physics/damage/energy_split.h), or a cell where a region varies.
 
 #include "solver/fracture/model/fracture_model.h"
 

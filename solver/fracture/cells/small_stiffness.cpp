@@ -4,12 +4,24 @@
 #include "solver/parallel.h"
 
 #include <cmath>
+#include <map>
+#include <utility>
 
 namespace pfdm {
 
 SmallStiffness::SmallStiffness(const Mesh& mesh, const FractureModel& model)
     : CellStiffness(mesh, model), materials_(mesh, model), is_isotropic_(model.is_isotropic()) {
-  for (const RegionModel& region : model.regions) laws_.push_back(make_cell_law(model, region));
+  if (model.cells.size() == 0)
+    for (const RegionModel& region : model.regions) laws_.push_back(make_cell_law(model, region));
+  std::map<std::pair<Index, const MandelMatrix*>, std::shared_ptr<const CellLaw>> known;  // these are large
+  for (Index c = 0; c < model.cells.size(); ++c) {
+    const RegionModel& in_cell = model.cells[c];
+    std::shared_ptr<const CellLaw> law;
+    if (in_cell.stiffness) law = known[{mesh.region[c], in_cell.stiffness.get()}];
+    if (!law) law = make_cell_law(model, in_cell);
+    if (in_cell.stiffness) known[{mesh.region[c], in_cell.stiffness.get()}] = law;
+    laws_.push_back(std::move(law));
+  }
 }
 
 void SmallStiffness::start_step(double duration, const CellField<double>& shift) {

@@ -50,7 +50,7 @@ class SmallStiffness final : public CellStiffness {
 
  private:
   const IsotropicElasticity& elasticity(Index cell) const { return model_.in_cell(mesh_, cell).elasticity; }
-  const CellLaw& law(Index cell) const { return *laws_[mesh_.region[cell]]; }
+  const CellLaw& law(Index cell) const { return *laws_[model_.cells.size() > 0 ? cell : mesh_.region[cell]]; }
   // The law of every cell, with its g and closure.
   StrainLaw strain_law(const CellField<double>& g, const CellField<double>& closure) const;
   // Cells with a history at the state; their moduli become those that gaps meet.
@@ -65,7 +65,7 @@ class SmallStiffness final : public CellStiffness {
   double follow_with_closure(Index cell, const CellMechanics& mechanics, FractureState& state);
 
   MaterialCells materials_;
-  std::vector<std::unique_ptr<const CellLaw>> laws_;  // by region
+  std::vector<std::shared_ptr<const CellLaw>> laws_;  // by region, or by cell where regions vary
   bool is_isotropic_;                                 // every cell has isotropic secant moduli
 };
 

@@ -1,7 +1,7 @@
 // Damaged sheets in plane stress at finite strain: their one energy and Cauchy stress, the derivative of the balance
 // where cells are broken, a sheet with a crack.
 
-#include "solver/fracture/cells/cell_stiffness->h"
+#include "solver/fracture/cells/cell_stiffness.h"
 #include "solver/fracture/cells/finite_cells.h"
 #include "tests/verification/cohesive_blocks.h"
 #include "tests/verification/finite.h"

@@ -3,7 +3,7 @@
 #include "tests/verification/finite.h"
 
 #include "mesh/generators/sphere_sector.h"
-#include "solver/fracture/cells/cell_stiffness->h"
+#include "solver/fracture/cells/cell_stiffness.h"
 #include "solver/momentum/body/rigid_motion.h"
 
 #include <fmt/format.h>
