@@ -1,4 +1,5 @@
-# cmake --install: the program with its cases, and the libraries with their headers. cpack -G DEB: a package of each.
+# cmake --install: the program with its cases, and the libraries with their headers. cpack -G DEB: a package of each, and
+# one of the documentation.
 
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
@@ -44,6 +45,29 @@ install(
   COMPONENT program)
 install(FILES ${PROJECT_BINARY_DIR}/pfdm.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT program)
 
+# The documentation site, by `cmake --install DIR --component documentation`: built then, where Sphinx and what it needs are.
+find_program(PFDM_SPHINX_PYTHON NAMES python3 PATHS /usr/bin NO_DEFAULT_PATH)
+find_program(PFDM_DOXYGEN doxygen)
+find_path(PFDM_FURO furo/__init__.py PATHS /usr/lib/python3/dist-packages NO_DEFAULT_PATH)
+find_path(PFDM_KATEX katex.min.css PATHS /usr/share/javascript/katex NO_DEFAULT_PATH)
+set(has_documentation FALSE)
+if(PFDM_SPHINX_PYTHON AND PFDM_DOXYGEN AND PFDM_FURO AND PFDM_KATEX)
+  set(has_documentation TRUE)
+  set(site ${PROJECT_BINARY_DIR}/documentation)
+  install(
+    CODE "file(REMOVE_RECURSE ${site})
+          execute_process(
+            COMMAND ${CMAKE_COMMAND} -E env PYTHONDONTWRITEBYTECODE=1 ${PFDM_SPHINX_PYTHON} -m sphinx -q
+                    -c ${PROJECT_SOURCE_DIR}/cases/site -d ${site}.pages -b html ${PROJECT_SOURCE_DIR} ${site}
+            COMMAND_ERROR_IS_FATAL ANY)"
+    COMPONENT documentation EXCLUDE_FROM_ALL)
+  install(
+    DIRECTORY ${site}/
+    DESTINATION ${CMAKE_INSTALL_DOCDIR}/html
+    COMPONENT documentation EXCLUDE_FROM_ALL
+    PATTERN .buildinfo EXCLUDE)
+endif()
+
 set(libraries options physics mesh solver postproc)
 foreach(room parallel linear scalar heat momentum dynamics homogenization fracture calibration point vibration)
   list(APPEND libraries solver_${room})
@@ -86,6 +110,13 @@ install(
 
 set(CPACK_GENERATOR DEB)
 set(CPACK_COMPONENTS_ALL program development)
+if(has_documentation)
+  list(APPEND CPACK_COMPONENTS_ALL documentation)
+  set(CPACK_DEBIAN_DOCUMENTATION_PACKAGE_NAME pfdm-doc)
+  set(CPACK_DEBIAN_DOCUMENTATION_PACKAGE_ARCHITECTURE all)
+  set(CPACK_DEBIAN_DOCUMENTATION_PACKAGE_SECTION doc)
+  set(CPACK_DEBIAN_DOCUMENTATION_DESCRIPTION "${PROJECT_DESCRIPTION}: tutorials, guides and reference as a site")
+endif()
 set(CPACK_PACKAGE_CONTACT "The pfdm authors <pfdm@localhost>")
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)
@@ -96,6 +127,7 @@ set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME pfdm)
 set(CPACK_DEBIAN_PROGRAM_DESCRIPTION "${PROJECT_DESCRIPTION}")
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS fonts-liberation) # the reports'
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS pfdm-doc)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS "python3-matplotlib, python3-numpy, python3-pandas")
 if(TARGET pfdm_python) # the extension belongs to one version of Python
   get_target_property(python pfdm_python PFDM_DEBIAN_PYTHON)
