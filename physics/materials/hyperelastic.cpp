@@ -18,6 +18,7 @@ namespace {
 constexpr double nearly_incompressible = 0.47, moderate_lambda = 2.5;
 // Of viscoelastic materials, and the share of K that a pressure has at least (relaxing_volume.h, cell_pressure.h).
 constexpr double most_without_pressure = 0.4 + 1e-6, least_share = 0.2;
+constexpr double rounding_of_own = 1e-6;  // of the moduli of an energy of one's own, as of differences
 
 void check(const HyperelasticLaw& law, const HyperelasticParameters& p) {
   const double nu = p.elasticity.poisson_ratio();
@@ -49,7 +50,8 @@ HyperelasticMaterial::HyperelasticMaterial(const HyperelasticLaw& law, Hyperelas
   p0_ = law_.initial_stress(p_);
   const MandelMatrix C = law_.shear(p_, Tensor::Zero()).stiffness;
   Lambda_ = elasticity().lambda - C(0, 1);
-  const double rounding = 1e-9 * elasticity().mu;
+  if (p_.own) check_own(C);
+  const double rounding = (p_.own ? rounding_of_own : 1e-9) * elasticity().mu;
   if (!(std::abs(0.5 * C(3, 3) + p0_ - elasticity().mu) <= rounding))
     throw InputError(fmt::format("a material of the law \"{}\" needs exponents and shares", law_.name));
   if (Lambda_ < -rounding)
@@ -60,6 +62,27 @@ HyperelasticMaterial::HyperelasticMaterial(const HyperelasticLaw& law, Hyperelas
   choose_pressure(C(0, 1));
   branches_ = ViscousBranches(p_.branches, p_.volumetric, 0.0);
   branches_of_cells_ = ViscousBranches(p_.branches, p_.volumetric, bulk_ratio_);
+}
+
+// C: dS/dE at F = 1 [Pa].
+void HyperelasticMaterial::check_own(const MandelMatrix& C) const {
+  const double mu = elasticity().mu, nu = elasticity().poisson_ratio();
+  const double lambda_s = C(0, 1), half_shear = 0.5 * C(3, 3), shear = half_shear + p0_;
+  const MandelMatrix isotropic =
+      lambda_s * mandel_identity() * mandel_identity().transpose() + 2.0 * half_shear * MandelMatrix::Identity();
+  if (!((C - isotropic).norm() <= rounding_of_own * (C.norm() + mu)))
+    throw InputError("the energy is not isotropic at F = 1; only such ones are supported");
+  if (!(std::abs(shear - mu) <= rounding_of_own * mu))
+    throw InputError(fmt::format(
+        "the energy has the shear modulus {} at F = 1, young_modulus and poisson_ratio of the case make {}; "
+        "they must be the same",
+        quantity_text(shear, "Pa"), quantity_text(mu, "Pa")));
+  const double limit = p_.branches.empty() ? nearly_incompressible : most_without_pressure;
+  if (nu > limit && Lambda_ < 0.5 * elasticity().lambda)
+    throw InputError(
+        fmt::format("the energy has a volume energy of its own; with a Poisson's ratio of {:.6g}, above {:.3g}, leave "
+                    "its terms in ln J or J - 1 out: they are added, by poisson_ratio and volumetric of the case",
+                    nu, limit));
 }
 
 // shear_lambda: lambda of the shear part [Pa]. Of viscoelastic materials lambda_s/mu is one that leaves the pressure a
@@ -185,6 +208,10 @@ MaterialEnergy HyperelasticMaterial::energy(const Tensor& H, std::span<const dou
 
 std::shared_ptr<const Material> make_hyperelastic(std::string_view law, HyperelasticParameters parameters) {
   return std::make_shared<const HyperelasticMaterial>(hyperelastic_law(law), std::move(parameters));
+}
+
+std::shared_ptr<const Material> make_own_hyperelastic(HyperelasticParameters parameters) {
+  return std::make_shared<const HyperelasticMaterial>(own_hyperelastic_law(), std::move(parameters));
 }
 
 }  // namespace pfdm

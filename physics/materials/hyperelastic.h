@@ -16,6 +16,8 @@
 //   3) saint_venant_kirchhoff lambda/2 (tr E)^2 + mu E:E,  E = (C - 1)/2, for small strains and large rotations: under
 //                          compression it softens and can invert
 //
+// A law of one's own (OwnStrainEnergy) is W_s, isotropic at F = 1; the rest is as above.
+//
 // Formulas start from H = F - 1 and E, so that small strains lose no digits.
 //
 // Where J < 0.1 the functions of J, -p0 ln J + U and W_c, go on as their expansion to second order about J = 0.1. The
@@ -35,6 +37,26 @@
 
 namespace pfdm {
 
+/// The shear part by the Green strain E: S - p0 I with S = 2 dW_s/dC, and dS/dE.
+struct ShearEnergy {
+  double energy = 0.0;                            ///< W_s [J/m^3]
+  Mandel stress = Mandel::Zero();                 ///< [Pa]
+  MandelMatrix stiffness = MandelMatrix::Zero();  ///< [Pa]
+};
+
+/// A shear part that is no row of the table of laws, as one that a script has written. It may have a volume energy,
+/// too: U adds what the given elasticity has beyond it.
+class OwnStrainEnergy {
+ public:
+  OwnStrainEnergy() = default;
+  OwnStrainEnergy(const OwnStrainEnergy&) = delete;
+  OwnStrainEnergy& operator=(const OwnStrainEnergy&) = delete;
+  virtual ~OwnStrainEnergy() = default;
+
+  virtual double initial_stress() const = 0;          ///< p0 [Pa]
+  virtual ShearEnergy at(const Tensor& E) const = 0;  ///< asked by several threads
+};
+
 struct HyperelasticParameters {
   IsotropicElasticity elasticity;  ///< at small strain, of viscoelastic materials at rest [Pa]
   VolumetricForm volumetric = VolumetricForm::quadratic;
@@ -43,13 +65,7 @@ struct HyperelasticParameters {
   std::vector<double> exponents{};      ///< alpha_p, one per share; not zero
   std::vector<PronyBranch> branches{};  ///< in shear; none: the material is elastic
   PronyDrive drive = PronyDrive::equilibrium;
-};
-
-/// The shear part by the Green strain E: S - p0 I with S = 2 dW_s/dC, and dS/dE.
-struct ShearEnergy {
-  double energy = 0.0;                            ///< W_s [J/m^3]
-  Mandel stress = Mandel::Zero();                 ///< [Pa]
-  MandelMatrix stiffness = MandelMatrix::Zero();  ///< [Pa]
+  std::shared_ptr<const OwnStrainEnergy> own{};  ///< in place of that of a law
 };
 
 struct HyperelasticLaw {
@@ -62,6 +78,8 @@ struct HyperelasticLaw {
 std::span<const HyperelasticLaw> hyperelastic_laws();
 /// Throws InputError for an unknown name.
 const HyperelasticLaw& hyperelastic_law(std::string_view name);
+/// That of the parameters' own energy, which is no row of the table.
+const HyperelasticLaw& own_hyperelastic_law();
 
 /// Volume by the pressure q that the share c of U has.
 struct VolumeAt {
@@ -74,9 +92,11 @@ class HyperelasticMaterial final : public Material {
   /// Throws InputError for shares that do not sum to 1 or are not as many as the exponents, an exponent of zero, and a
   /// second_invariant outside 0 to 1. Also for a Poisson's ratio above 0.47 for saint_venant_kirchhoff, which has no
   /// pressure, and parameters that make Lambda negative or the shear modulus not that of the elasticity; for branches
-  /// of it, and branches that are not positive.
+  /// of it, and branches that are not positive. For an energy of one's own that is not isotropic at F = 1, and one
+  /// with a volume energy of its own above a Poisson's ratio of 0.47.
   HyperelasticMaterial(const HyperelasticLaw& law, HyperelasticParameters parameters);
 
+  const HyperelasticParameters& parameters() const { return p_; }
   bool is_finite_strain() const override { return true; }
   bool depends_on_rate() const override { return branches_.any(); }
   std::size_t history_size() const override { return branches_.size(); }
@@ -125,6 +145,7 @@ class HyperelasticMaterial final : public Material {
   MaterialEnergy energy(const Tensor& H, std::span<const double> history, const EnergySplit& split) const override;
 
  private:
+  void check_own(const MandelMatrix& C) const;
   void choose_pressure(double shear_lambda);
   PotentialAt potential_with(double Lambda, const Tensor& H, double change) const;
   PotentialAt dilation_of(double Lambda, const Tensor& H) const;
@@ -143,5 +164,7 @@ class HyperelasticMaterial final : public Material {
 
 /// Throws InputError as the constructor does.
 std::shared_ptr<const Material> make_hyperelastic(std::string_view law, HyperelasticParameters parameters);
+/// Likewise, of the parameters' own energy.
+std::shared_ptr<const Material> make_own_hyperelastic(HyperelasticParameters parameters);
 
 }  // namespace pfdm

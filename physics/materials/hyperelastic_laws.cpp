@@ -79,6 +79,9 @@ constexpr HyperelasticLaw all_hyperelastic[] = {
     {"saint_venant_kirchhoff", [](const Parameters&) { return 0.0; }, saint_venant_kirchhoff, false},
 };
 
+constexpr HyperelasticLaw own_law{"of one's own", [](const Parameters& p) { return p.own->initial_stress(); },
+                                  [](const Parameters& p, const Tensor& E) { return p.own->at(E); }};
+
 }  // namespace
 
 std::span<const HyperelasticLaw> hyperelastic_laws() { return all_hyperelastic; }
@@ -86,5 +89,7 @@ std::span<const HyperelasticLaw> hyperelastic_laws() { return all_hyperelastic; 
 const HyperelasticLaw& hyperelastic_law(std::string_view name) {
   return find_by_name(hyperelastic_laws(), name, "hyperelastic law");
 }
+
+const HyperelasticLaw& own_hyperelastic_law() { return own_law; }
 
 }  // namespace pfdm

@@ -54,8 +54,14 @@ class Cases(Folder):
     def test_check_tells_what_would_run_and_what_is_doubtful(self):
         check = bar(**{"fracture.length": "0.5 mm"}).check()
         self.assertIn("cells 42", check.text)
+        self.assertEqual(str(check).splitlines(), check.text)
         self.assertTrue(any("no crack would be resolved" in warning for warning in check.warnings), check.warnings)
         self.assertFalse(bar().check().warnings)
+
+    def test_keys_are_completed(self):
+        keys = bar(**{"fracture.length": "0.5 mm"})._ipython_key_completions_()
+        for key in (toughness, "fracture.length", "boundary[1].patch"):
+            self.assertIn(key, keys)
 
     def test_errors_have_file_line_and_key(self):
         for key, value, named in [(toughness, "3 N", toughness), (toughness, 3.0, toughness),

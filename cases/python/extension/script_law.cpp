@@ -42,6 +42,32 @@ void put_on_interface(const std::string& name, const py::object& law, FractureMo
   known.own_law = make_script_interface(fmt::format("interfaces[\"{}\"]", name), law);
 }
 
+bool is_hyperelastic(const py::object& law) {
+  return py::isinstance(law, py::module_::import("pfdm.own_laws").attr("OwnHyperelastic"));
+}
+
+std::shared_ptr<const Material> material_of(const std::string& place, const py::object& law,
+                                            const RegionModel& region) {
+  const bool is_finite = region.material && region.material->is_finite_strain();
+  if (!is_hyperelastic(law)) {
+    if (is_finite)
+      throw InputError(fmt::format(
+          "{}: the case has a material of finite strain there; derive the law from pfdm.OwnHyperelastic", place));
+    return make_script_material(place, law, region.elasticity);
+  }
+  if (!is_finite)
+    throw InputError(
+        fmt::format("{}: the case has no material of finite strain there, whose place a law derived from "
+                    "pfdm.OwnHyperelastic takes; give it law = \"neo_hookean\"",
+                    place));
+  if (region.strength.is_chosen())
+    throw InputError(
+        fmt::format("{}: a law derived from pfdm.OwnHyperelastic cannot be combined with a model of "
+                    "strength (fracture.model)",
+                    place));
+  return make_script_hyperelastic(place, law, *region.material);
+}
+
 void put_in_region(const std::string& name, const py::object& law, const Mesh& mesh, FractureModel& model) {
   const auto found = std::ranges::find(mesh.region_names, name);
   if (found == mesh.region_names.end())
@@ -50,12 +76,7 @@ void put_in_region(const std::string& name, const py::object& law, const Mesh& m
   const auto r = static_cast<Index>(found - mesh.region_names.begin());
   RegionModel& region = model.regions[r];
   const std::string place = fmt::format("materials[\"{}\"]", name);
-  if (region.material && region.material->is_finite_strain())
-    throw InputError(
-        fmt::format("{}: the case has a material of finite strain there; a law in Python is of small "
-                    "strain",
-                    place));
-  region.material = make_script_material(place, law, region.elasticity);
+  region.material = material_of(place, law, region);
   for (Index c = 0; c < model.cells.size(); ++c) {
     if (mesh.region[c] != r) continue;
     if (model.cells[c].elasticity != region.elasticity)
@@ -81,11 +102,12 @@ std::string words_of(const ScriptLaws& laws) {
   return words;
 }
 
-ScriptLaw::ScriptLaw(std::string place, const py::object& law, std::size_t most_numbers)
+ScriptLaw::ScriptLaw(std::string place, const py::object& law, std::size_t most_numbers, std::size_t n_entries)
     : place_(fmt::format("{} ({})", place, type_of(law))),
       respond_(law.attr("respond")),
-      depends_on_rate_(py::bool_(law.attr("depends_on_rate"))) {
-  const py::object size = law.attr("history_size");
+      n_entries_(n_entries),
+      depends_on_rate_(py::bool_(py::getattr(law, "depends_on_rate", py::bool_(false)))) {
+  const py::object size = py::getattr(law, "history_size", py::int_(0));
   const Py_ssize_t n = PyIndex_Check(size.ptr()) ? PyNumber_AsSsize_t(size.ptr(), nullptr) : -1;
   if (n < 0 || static_cast<std::size_t>(n) > most_numbers)
     throw InputError(fmt::format("{}: history_size is {}; a whole number from 0 to {} is expected", place_,
@@ -102,10 +124,9 @@ ScriptLaw::Turn::Turn() { ++depth; }
 ScriptLaw::Turn::~Turn() { --depth; }
 
 ScriptLaw::Answer ScriptLaw::answer(const py::object& returned) const {
-  constexpr std::size_t n_entries = 5;
-  if (!py::isinstance<py::tuple>(returned) || py::len(returned) != n_entries)
+  if (!py::isinstance<py::tuple>(returned) || py::len(returned) != n_entries_)
     throw InputError(fmt::format("{}: respond() has returned {}; a tuple of {} entries is expected", place_,
-                                 std::string(py::repr(returned)), n_entries));
+                                 std::string(py::repr(returned)), n_entries_));
   return {*this, returned.cast<py::tuple>()};
 }
 
@@ -134,6 +155,12 @@ void ScriptLaw::Answer::read_finite(std::size_t entry, const char* name, std::ve
 double ScriptLaw::Answer::number(std::size_t entry, const char* name) const {
   double value = 0.0;
   read_finite(entry, name, {}, &value);
+  return value;
+}
+
+double ScriptLaw::Answer::any_number(std::size_t entry, const char* name) const {
+  double value = 0.0;
+  read(entry, name, {}, &value);
   return value;
 }
 

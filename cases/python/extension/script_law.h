@@ -1,6 +1,6 @@
 #pragma once
-// Laws that are written in Python: objects of the package's OwnInterfaceLaw and OwnMaterial, asked by whichever thread
-// computes. What their respond() raises ends the step.
+// Laws that are written in Python: objects of the package's OwnInterfaceLaw, OwnMaterial and OwnHyperelastic, asked by
+// whichever thread computes. What their respond() raises ends the step.
 
 #include "cases/python/extension/arrays.h"
 #include "mesh/mesh.h"
@@ -30,13 +30,17 @@ bool is_within_script_law();
 std::shared_ptr<const OwnInterfaceLaw> make_script_interface(const std::string& place, const py::object& law);
 std::shared_ptr<const Material> make_script_material(const std::string& place, const py::object& law,
                                                      const IsotropicElasticity& elasticity);
+/// With the strain energy of this law in place of that of `known`, a material of finite strain; its volume energy,
+/// pressure and branches stay. Throws InputError for derivatives that are not those of the energy.
+std::shared_ptr<const Material> make_script_hyperelastic(const std::string& place, const py::object& law,
+                                                         const Material& known);
 
 /// The object, and what it has said of itself.
 class ScriptLaw {
  public:
   /// `place`, as in "interfaces[\"glue\"]", is for messages. Throws InputError unless its history has at most so many
-  /// numbers.
-  ScriptLaw(std::string place, const py::object& law, std::size_t most_numbers);
+  /// numbers. Its respond() returns so many entries.
+  ScriptLaw(std::string place, const py::object& law, std::size_t most_numbers, std::size_t n_entries = 5);
   ScriptLaw(const ScriptLaw&) = delete;
   ScriptLaw& operator=(const ScriptLaw&) = delete;
   ~ScriptLaw();
@@ -56,7 +60,7 @@ class ScriptLaw {
     py::gil_scoped_acquire lock_;
   };
 
-  /// What respond() has returned: arrays, of which the third is the new history, then two numbers.
+  /// What respond() has returned: arrays and numbers.
   class Answer {
    public:
     /// Element by element in rows, into an array of this shape. Throws InputError for another shape.
@@ -65,6 +69,9 @@ class ScriptLaw {
     void read_finite(std::size_t entry, const char* name, std::vector<py::ssize_t> shape, double* to) const;
     /// Finite, too.
     double number(std::size_t entry, const char* name) const;
+    /// It may be infinite, or no number.
+    double any_number(std::size_t entry, const char* name) const;
+    bool is_none(std::size_t entry) const { return entries_[entry].is_none(); }
     /// An energy that a step has dissipated. Throws InputError where it is less than -`rounding`.
     double dissipated(std::size_t entry, double rounding) const;
 
@@ -75,7 +82,7 @@ class ScriptLaw {
     py::tuple entries_;
   };
 
-  /// Within a Turn. Throws what respond() raises, and InputError for an answer that is not one of five entries.
+  /// Within a Turn. Throws what respond() raises, and InputError for an answer of another number of entries.
   template <class... Arguments>
   Answer respond(const Arguments&... arguments) const {
     return answer(respond_(arguments...));
@@ -86,6 +93,7 @@ class ScriptLaw {
 
   std::string place_;
   py::object respond_;
+  std::size_t n_entries_ = 0;
   std::size_t history_size_ = 0;
   bool depends_on_rate_ = false;
 };

@@ -12,8 +12,8 @@ command line, several runs go side by side, and neither Ctrl-C nor a failing run
 are texts with units, as in case.toml ("300 J/m^2"), or quantities of pint; what comes out is in SI units.
 
 With the compiled extension pieces of it run in this process, on arrays of NumPy: fracture runs step by step
-(FractureRun), also with laws written in Python (OwnInterfaceLaw, OwnMaterial), composites (homogenize), and laws as
-functions: MassMaterial, Endochronic, InterfaceLaw, softening.
+(FractureRun), also with laws written in Python (OwnInterfaceLaw, OwnMaterial, OwnHyperelastic), composites (homogenize),
+and laws as functions: MassMaterial, Endochronic, InterfaceLaw, softening.
 """
 
 from .case import Case, Check, specimen
@@ -25,12 +25,13 @@ from .interface_law import InterfaceLaw, softening, softening_laws
 from .mass_material import MassMaterial
 from .mesh import Mesh
 from .native import set_threads
-from .own_laws import InterfaceResponse, MaterialResponse, OwnInterfaceLaw, OwnMaterial
+from .own_laws import (HyperelasticResponse, InterfaceResponse, MaterialResponse, OwnHyperelastic, OwnInterfaceLaw,
+                       OwnMaterial)
 from .results import Fit, Frame, Results, open  # noqa: A004
 from .study import sweep
 from .vtu import Grid
 
-__all__ = ["Case", "Check", "ComputationError", "Endochronic", "Error", "Fit", "FractureRun", "Frame", "Grid", "InputError",
-           "InterfaceLaw", "InterfaceResponse", "MassMaterial", "MaterialResponse", "Mesh", "MissingResult",
-           "OwnInterfaceLaw", "OwnMaterial", "Results", "State", "homogenize", "open", "set_threads", "softening",
-           "softening_laws", "specimen", "sweep"]
+__all__ = ["Case", "Check", "ComputationError", "Endochronic", "Error", "Fit", "FractureRun", "Frame", "Grid",
+           "HyperelasticResponse", "InputError", "InterfaceLaw", "InterfaceResponse", "MassMaterial", "MaterialResponse",
+           "Mesh", "MissingResult", "OwnHyperelastic", "OwnInterfaceLaw", "OwnMaterial", "Results", "State", "homogenize",
+           "open", "set_threads", "softening", "softening_laws", "specimen", "sweep"]

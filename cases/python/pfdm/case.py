@@ -16,7 +16,7 @@ from .toml_text import leaves_of, toml_piece, value_at
 
 @dataclass(frozen=True)
 class Check:
-    """What `pfdm check` says of a case that can be run.
+    """What `pfdm check` says of a case that can be run; print() shows all of it.
 
     Attributes:
         text: all it says, a line each.
@@ -25,6 +25,9 @@ class Check:
 
     text: list[str]
     warnings: list[str] = field(default_factory=list)
+
+    def __str__(self) -> str:
+        return "\n".join(self.text)
 
 
 class Case:
@@ -100,6 +103,10 @@ class Case:
 
     def __iter__(self) -> Iterator[str]:
         return iter({**leaves_of(self._table), **self.values})
+
+    def _ipython_key_completions_(self) -> list[str]:
+        """Keys that IPython and Jupyter complete after case["."""
+        return list(self)
 
     def __repr__(self) -> str:
         changed = f" with {len(self.values)} other values" if self.values else ""

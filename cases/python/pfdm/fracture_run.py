@@ -13,7 +13,7 @@ from .case import Case
 from .errors import Error
 from .mesh import Mesh
 from .native import extension, place_of
-from .own_laws import OwnInterfaceLaw, OwnMaterial, laws_by_name
+from .own_laws import OwnHyperelastic, OwnInterfaceLaw, OwnMaterial, laws_by_name
 from .program import Step
 
 if TYPE_CHECKING:
@@ -55,7 +55,7 @@ class FractureRun:
         mesh: takes the place of what [mesh] makes; its regions and patches are those that the case names. Cells and
             points are put in another order: see cell_centres.
         interfaces: laws written in Python by the names of interfaces, in place of those of the case.
-        materials: the same of materials by the names of regions. Such runs are slow: a law is asked for each of its faces
+        materials: the same of materials by the names of regions, at finite strain of strain energies. Such runs are slow: a law is asked for each of its faces
             or cells in each iteration, which takes 5 us and what Python needs for the law.
 
     Raises:
@@ -64,11 +64,11 @@ class FractureRun:
     """
 
     def __init__(self, case: Case, mesh: Mesh | None = None, *, interfaces: Mapping[str, OwnInterfaceLaw] | None = None,
-                 materials: Mapping[str, OwnMaterial] | None = None) -> None:
+                 materials: Mapping[str, OwnMaterial | OwnHyperelastic] | None = None) -> None:
         parts = None if mesh is None else mesh.parts()
         self._opened: _pfdm.FractureRun | None = extension().FractureRun(
             *place_of(case), parts, laws_by_name("interfaces", interfaces, OwnInterfaceLaw),
-            laws_by_name("materials", materials, OwnMaterial))
+            laws_by_name("materials", materials, OwnMaterial, OwnHyperelastic))
         self._names: list[str] = self._run.row()[0].split(",")
 
     @property

@@ -49,6 +49,20 @@ class MaterialResponse(NamedTuple):
     dissipated: float = 0.0
 
 
+class HyperelasticResponse(NamedTuple):
+    """A strain energy and its derivatives at a deformation gradient F.
+
+    Attributes:
+        energy: W per reference volume [J/m^3]; a constant in it changes nothing.
+        stress: first Piola-Kirchhoff stress P = dW/dF [Pa], shape (3, 3).
+        tangent: dP_ij/dF_kl [Pa], shape (3, 3, 3, 3). Without one it is found by differences, with 12 more calls.
+    """
+
+    energy: float
+    stress: ArrayLike
+    tangent: ArrayLike | None = None
+
+
 class OwnInterfaceLaw(ABC):
     """The law of a cohesive interface, in place of that of an [[interface]] of the case, at small strain. Derive from it:
 
@@ -122,10 +136,42 @@ class OwnMaterial(ABC):
         """
 
 
-def laws_by_name(argument: str, laws: Mapping[str, Any] | None, kind: type[Any]) -> dict[str, Any]:
-    """As the extension takes them. Raises InputError for what is no law of this kind."""
+class OwnHyperelastic(ABC):
+    """The strain energy of a region at finite strain, in place of that of the law that the case has there, as of
+    "neo_hookean". Derive from it:
+
+        class NeoHookean(pfdm.OwnHyperelastic):
+            def respond(self, F):
+                return pfdm.HyperelasticResponse(0.5 * mu * numpy.sum(F * F), mu * F)
+
+    The energy is isotropic, and its shear modulus at F = 1 is that of the young_modulus and poisson_ratio of the case. What
+    it lacks of their bulk modulus is added: Lambda U(J) - p0 ln J, J = det F, U by `volumetric` of the case, with p0 the
+    stress at F = 1. So the energy above, which has no volume terms, and one that has them both work. Above a poisson_ratio
+    of 0.47 (with shear_branches above 0.4) leave the volume terms out: cells have a pressure then. Damage and
+    shear_branches of the case go on as with its own law.
+
+    Stress and tangent are compared with differences once, at the start. Faces have the stabilising stiffness that they have with
+    laws that stiffen, as "ogden": with the energy of "neo_hookean" forces differ from those of that law by what the mesh
+    does. Threads of the program ask the law. A process that
+    is forked meanwhile (os.fork, multiprocessing with "fork") can wait forever: start processes with multiprocessing's
+    "spawn" method.
+    """
+
+    @abstractmethod
+    def respond(self, F: NDArray[numpy.float64]) -> HyperelasticResponse:
+        """Energy, stress and tangent of a cell, by its argument alone: several threads ask in any order. With numbers that
+        are not finite the step is tried anew by a smaller increment.
+
+        Args:
+            F: the deformation gradient without its rotation [-], shape (3, 3), symmetric: the stretch U of
+                F = R U. Formulas of any F can be taken as they are.
+        """
+
+
+def laws_by_name(argument: str, laws: Mapping[str, Any] | None, *kinds: type[Any]) -> dict[str, Any]:
+    """As the extension takes them. Raises InputError for what is no law of one of these kinds."""
     for name, law in (laws or {}).items():
-        if not isinstance(law, kind):
-            raise InputError(f"{argument}[\"{name}\"]: an object of a class derived from pfdm.{kind.__name__} is expected, "
-                             f"found {law!r}")
+        if not isinstance(law, kinds):
+            names = " or ".join(f"pfdm.{kind.__name__}" for kind in kinds)
+            raise InputError(f"{argument}[\"{name}\"]: an object of a class derived from {names} is expected, found {law!r}")
     return dict(laws or {})
