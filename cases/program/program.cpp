@@ -11,6 +11,7 @@
 #include "cases/program/reference/key_help.h"
 #include "cases/program/reference/key_reference.h"
 #include "cases/program/reference/key_schema.h"
+#include "cases/program/reference/key_search.h"
 #include "cases/program/session/page_origin.h"
 #include "cases/program/session/terminal/external_program.h"
 #include "cases/program/session/terminal/message_text.h"
@@ -226,7 +227,7 @@ void write_schema(const CommandLine& line, std::ostream& out) {
 
 void help_on(const std::string& key, std::ostream& out) {
   const std::vector<KindKeys> kinds = keys_of_kinds();
-  if (const auto text = help_on_key(key, kinds)) {
+  if (const auto text = help_on_word(key, kinds)) {
     out << *text;
     return;
   }

@@ -40,7 +40,7 @@ suffix=$(PATH=/usr/bin:$PATH python3 -c 'import sysconfig; print(sysconfig.get_c
 [ "$target" = pfdm_python ] && mkdir -p "$place" && install /dev/null "$place/_pfdm.another.so" &&
   install /dev/null "$place/_pfdm$suffix"
 mkdir -p "$2/cases/program"
-printf '#!/bin/sh\necho %s "$@"\n' "$target" >"$2/cases/program/$target"
+printf '#!/bin/sh\necho "$PFDM_LAUNCHER" >"$0.launcher"\necho %s "$@"\n' "$target" >"$2/cases/program/$target"
 chmod +x "$2/cases/program/$target"
 echo "$target" >>"$2/targets"
 EOF
@@ -72,6 +72,8 @@ expect_no_build 2 "takes --output DIR alone" docs --outputs site
 expect_no_build 0 "number, above -1 and at most 0.4999" help materials.poisson_ratio
 expect_no_build 0 "(plate)" help cooling.emissivity
 expect_no_build 2 "no command and no key of case.toml has this name" help toughnes
+expect_no_build 0 'no key has the name "gc"; these tell of it' help gc
+expect_no_build 0 "in         materials.NAME.poisson_ratio" help poisson
 expect_no_build 0 "bar                         fracture       A bar" list
 expect_no_build 0 "then: ./pfdm check new" init new --like bar
 expect_no_build 2 "a new case goes into a new directory" init new --like bar
@@ -94,6 +96,7 @@ expect() {
 expect "pfdm_fracture run cases/bar" "pfdm_fracture" run cases/bar
 expect "pfdm_fracture check --threads 2 cases/bar/case.toml" "pfdm_fracture" check --threads 2 cases/bar/case.toml
 expect "pfdm_fracture list" "pfdm_fracture" list
+[[ $(cat build/release/cases/program/*.launcher) == ./pfdm ]] || complain "list does not name the launcher"
 expect "pfdm_fracture init new --like bar" "pfdm_fracture" init new --like bar
 expect "pfdm_fracture help run" "pfdm_fracture" help run
 expect "pfdm_fracture --version" "pfdm_fracture" --version

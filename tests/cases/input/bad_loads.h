@@ -123,7 +123,7 @@ inline const BadInput bad_loads[] = {
     {"frame_beyond_the_end",
      "\"0.006 mm\"",
      "\"0.06 mm\"",
-     {"this is at load parameter 4; the loading goes from 0 to 1"}},
+     {"this is at load parameter 4; the loading goes from 0 to 1 (15 um)"}},
     {"increments_that_fall",
      "initial_increment = 0.1",
      "initial_increment = 0.2",

@@ -181,6 +181,22 @@ TEST(KeyHelp, NamesWhatWasMeant) {
   EXPECT_THAT(run({"help", "toughness"}).out, HasSubstr("Fracture toughness"));
 }
 
+TEST(KeyHelp, FindsKeysByWhatTheyTellOf) {
+  const Outcome Gc = run({"help", "gc"});
+  EXPECT_EQ(Gc.status, 0) << Gc.err;
+  EXPECT_THAT(Gc.out, testing::StartsWith("no key has the name \"gc\"; these tell of it:"));
+  EXPECT_THAT(Gc.out, HasSubstr("toughness\n  Fracture toughness, critical energy release rate Gc"));
+  const std::string young = run({"help", "young"}).out;
+  EXPECT_LT(young.find("young_modulus\n  Young's modulus"), 100U) << young;
+  EXPECT_THAT(young, HasSubstr("in         materials.NAME.young_modulus (fracture) and"));
+  EXPECT_THAT(run({"help", "critical", "energy"}).status, 2);  // one word, or one text
+  EXPECT_THAT(run({"help", "critical energies"}).status, 2);
+  EXPECT_THAT(run({"help", "energy critical"}).out, HasSubstr("toughness\n"));
+  EXPECT_THAT(run({"help", "particle"}).out, HasSubstr("particles\n"));
+  EXPECT_THAT(run({"help", "ell"}).out, HasSubstr("others that tell of it: "));
+  EXPECT_THAT(run({"help", "ell"}).out, HasSubstr("fracture.length"));
+}
+
 TEST(KeySchema, OfTheRepositoryIsThatOfTheRows) {
   EXPECT_EQ(text_of(fs::path(PFDM_CASES_DIR) / "case.schema.json"), key_schema(all_keys()))
       << "pfdm help --schema > cases/case.schema.json";

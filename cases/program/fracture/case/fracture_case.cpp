@@ -4,6 +4,7 @@
 #include "cases/program/fracture/case/model_choice.h"
 #include "cases/program/fracture/case/run_keys.h"
 #include "cases/program/input/config/key_member.h"
+#include "physics/quantity_text.h"
 #include "solver/fracture/model/toughness_perturbation.h"
 
 #include <fmt/format.h>
@@ -131,6 +132,11 @@ double load_at_displacement(const ConfigValue& entry, const FractureCase& fractu
                   fracture.output.curve.patch));
 }
 
+std::string end_words(const FractureCase& fracture) {
+  const auto full = fracture.box ? std::nullopt : full_displacement(fracture);
+  return full ? fmt::format(" ({})", quantity_text(*full * fracture.loading.end, "m")) : "";
+}
+
 std::vector<double> read_frames(const ConfigTable& output, const FractureCase& fracture) {
   std::vector<double> loads;
   const auto frames = output.find("frames_at");
@@ -142,8 +148,8 @@ std::vector<double> read_frames(const ConfigTable& output, const FractureCase& f
   for (const ConfigValue& entry : frames->list()) {
     const double load = entry.is_string() ? load_at_displacement(entry, fracture) : entry.number();
     if (!(load > 0.0) || load > fracture.loading.end * (1.0 + 1e-12))
-      throw entry.error(fmt::format("this is at load parameter {:.6g}; the loading goes from 0 to {:.6g}", load,
-                                    fracture.loading.end));
+      throw entry.error(fmt::format("this is at load parameter {:.6g}; the loading goes from 0 to {:.6g}{}", load,
+                                    fracture.loading.end, end_words(fracture)));
     loads.push_back(std::min(load, fracture.loading.end));
   }
   std::sort(loads.begin(), loads.end());

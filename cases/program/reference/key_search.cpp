@@ -1,0 +1,102 @@
+#include "cases/program/reference/key_search.h"
+
+#include "cases/program/reference/key_help.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cctype>
+
+namespace pfdm {
+namespace {
+
+/// A row, and one of the places where it stands: "fracture.length".
+struct FoundKey {
+  const Key* key;
+  std::string place;
+  std::string_view kind;
+  std::size_t n_places = 1;
+};
+
+constexpr std::size_t most_lines = 12, most_places = 6;
+
+std::vector<std::string> words_in(std::string_view text) {
+  std::vector<std::string> words(1);
+  for (const char c : text) {
+    if (std::isalnum(static_cast<unsigned char>(c)) != 0)
+      words.back() += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    else if (!words.back().empty())
+      words.emplace_back();
+  }
+  if (words.back().empty()) words.pop_back();
+  return words;
+}
+
+bool is_plural(const std::string& many, const std::string& one) { return one.back() != 's' && many == one + "s"; }
+
+bool has(const std::vector<std::string>& words, const std::string& word) {
+  return std::ranges::any_of(
+      words, [&](const std::string& w) { return w == word || is_plural(w, word) || is_plural(word, w); });
+}
+
+bool has_all(const std::vector<std::string>& words, const std::vector<std::string>& asked) {
+  return std::ranges::all_of(asked, [&](const std::string& word) { return has(words, word); });
+}
+
+void add(const PlacedKey& placed, std::vector<FoundKey>& found) {
+  const auto known = std::ranges::find_if(found, [&](const FoundKey& other) {
+    return other.key->name == placed.key->name && other.key->sentence == placed.key->sentence;
+  });
+  if (known != found.end())
+    ++known->n_places;
+  else
+    found.push_back({placed.key, placed.path, placed.kind});
+}
+
+/// Those with the words in their name first. Keys whose name is `asked` are left out.
+std::vector<FoundKey> keys_about(const std::string& asked, const std::vector<KindKeys>& kinds) {
+  const std::vector<std::string> words = words_in(asked);
+  std::vector<FoundKey> by_name, by_sentence;
+  if (words.empty()) return {};
+  for_each_key(kinds, [&](const PlacedKey& placed) {
+    if (placed.key->name == asked) return;
+    const std::vector<std::string> name = words_in(placed.key->name);
+    if (has_all(name, words)) return add(placed, by_name);
+    std::vector<std::string> all = words_in(placed.key->sentence);
+    all.insert(all.end(), name.begin(), name.end());
+    if (has_all(all, words)) add(placed, by_sentence);
+  });
+  by_name.insert(by_name.end(), by_sentence.begin(), by_sentence.end());
+  return by_name;
+}
+
+std::string text_of(const std::vector<FoundKey>& found) {
+  std::string text;
+  for (std::size_t i = 0; i < std::min(found.size(), most_lines); ++i) {
+    const FoundKey& at = found[i];
+    const std::string others = at.n_places > 1 ? fmt::format(" and {} more", at.n_places - 1) : "";
+    text +=
+        fmt::format("{}\n  {}\n  in         {} ({}){}\n", at.key->name, at.key->sentence, at.place, at.kind, others);
+  }
+  if (found.size() > most_lines) text += fmt::format("and {} more\n", found.size() - most_lines);
+  return text;
+}
+
+std::string places_of(const std::vector<FoundKey>& found) {
+  std::vector<std::string> places;
+  for (std::size_t i = 0; i < std::min(found.size(), most_places); ++i) places.push_back(found[i].place);
+  return fmt::format("{}{}", fmt::join(places, ", "), found.size() > most_places ? " ..." : "");
+}
+
+}  // namespace
+
+std::optional<std::string> help_on_word(const std::string& asked, const std::vector<KindKeys>& kinds) {
+  const std::vector<FoundKey> about = keys_about(asked, kinds);
+  if (const auto text = help_on_key(asked, kinds))
+    return about.empty() ? *text : fmt::format("{}\nothers that tell of it: {}\n", *text, places_of(about));
+  if (about.empty()) return std::nullopt;
+  return fmt::format("no key has the name \"{}\"; these tell of it:\n\n{}", asked, text_of(about));
+}
+
+}  // namespace pfdm

@@ -1,0 +1,17 @@
+#pragma once
+// Keys by words of what they are for, where no key has the word as its name.
+
+#include "cases/program/reference/key_tree.h"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace pfdm {
+
+/// What the rows say of the keys with this name or path (help_on_key), and which others tell of it. Where no key has it
+/// as its name, those whose name or sentence has all the words of `asked`, small or capital, singular or plural.
+/// Nothing if there are none.
+std::optional<std::string> help_on_word(const std::string& asked, const std::vector<KindKeys>& kinds);
+
+}  // namespace pfdm
