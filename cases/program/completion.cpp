@@ -5,6 +5,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+
 namespace pfdm {
 namespace {
 
@@ -66,15 +68,21 @@ std::string case_of_options(const CommandWords& command) {
   return fmt::format("    {}:-*) _pfdm_words \"$word\" {} ;;\n", command.name, fmt::join(names, " "));
 }
 
-std::string case_of_word(const CommandWords& command) {
-  for (const CommandWords::Option& option : command.options)
-    if (option.name.empty()) return fmt::format("    {}:*) {} ;;\n", command.name, completer_of(option));
+std::string case_of_word(const CommandWords& command, const std::vector<std::string>& keys) {
+  for (CommandWords::Option option : command.options) {
+    if (!option.name.empty()) continue;
+    if (option.value == "COMMAND")
+      for (const std::string& key : keys)
+        if (std::ranges::count(option.choices, key) == 0) option.choices.push_back(key);
+    return fmt::format("    {}:*) {} ;;\n", command.name, completer_of(option));
+  }
   return "";
 }
 
 }  // namespace
 
-std::string completion_script(std::string_view shell, const std::vector<CommandWords>& commands) {
+std::string completion_script(std::string_view shell, const std::vector<CommandWords>& commands,
+                              const std::vector<std::string>& keys) {
   if (shell != "bash" && shell != "zsh")
     throw InputError(fmt::format("completion: there are scripts for bash and zsh, none for \"{}\"", shell));
   std::vector<std::string> names;
@@ -82,7 +90,7 @@ std::string completion_script(std::string_view shell, const std::vector<CommandW
   for (const CommandWords& command : commands) {
     names.push_back(command.name);
     values += cases_of_values(command);
-    words += case_of_options(command) + case_of_word(command);
+    words += case_of_options(command) + case_of_word(command, keys);
   }
   std::string text = fmt::format("# Completion of pfdm in {0}, made by: pfdm completion {0}\n", shell);
   if (shell == "zsh") text += "autoload -U +X bashcompinit && bashcompinit\n";

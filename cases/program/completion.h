@@ -1,5 +1,5 @@
 #pragma once
-// Completion of commands, options and case directories by the shell.
+// Completion of commands, options, case directories and names of keys by the shell.
 
 #include "cases/program/commands.h"
 
@@ -9,7 +9,8 @@
 
 namespace pfdm {
 
-/// The script for "bash" or "zsh"; throws InputError for another shell.
-std::string completion_script(std::string_view shell, const std::vector<CommandWords>& commands);
+/// The script for "bash" or "zsh"; throws InputError for another shell. `keys`: names that `pfdm help` takes as well.
+std::string completion_script(std::string_view shell, const std::vector<CommandWords>& commands,
+                              const std::vector<std::string>& keys);
 
 }  // namespace pfdm

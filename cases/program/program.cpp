@@ -248,7 +248,7 @@ void do_command(const CommandLine& line, std::ostream& out, std::ostream& err, b
   }
   if (line.command == "help") return line.key.empty() ? write_schema(line, out) : help_on(line.key, out);
   if (line.command == "completion") {
-    out << completion_script(line.shell, command_words());
+    out << completion_script(line.shell, command_words(), names_of_keys(keys_of_kinds()));
     return;
   }
   if (line.command != "list") return do_case(line, out, err, terminal);

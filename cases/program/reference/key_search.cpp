@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <set>
 
 namespace pfdm {
 namespace {
@@ -97,6 +98,12 @@ std::optional<std::string> help_on_word(const std::string& asked, const std::vec
     return about.empty() ? *text : fmt::format("{}\nothers that tell of it: {}\n", *text, places_of(about));
   if (about.empty()) return std::nullopt;
   return fmt::format("no key has the name \"{}\"; these tell of it:\n\n{}", asked, text_of(about));
+}
+
+std::vector<std::string> names_of_keys(const std::vector<KindKeys>& kinds) {
+  std::set<std::string> names;
+  for_each_key(kinds, [&](const PlacedKey& placed) { names.insert(std::string(placed.key->name)); });
+  return {names.begin(), names.end()};
 }
 
 }  // namespace pfdm

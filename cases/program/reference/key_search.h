@@ -14,4 +14,7 @@ namespace pfdm {
 /// Nothing if there are none.
 std::optional<std::string> help_on_word(const std::string& asked, const std::vector<KindKeys>& kinds);
 
+/// Each once, in the order of letters.
+std::vector<std::string> names_of_keys(const std::vector<KindKeys>& kinds);
+
 }  // namespace pfdm

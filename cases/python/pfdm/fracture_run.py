@@ -55,8 +55,8 @@ class FractureRun:
         mesh: takes the place of what [mesh] makes; its regions and patches are those that the case names. Cells and
             points are put in another order: see cell_centres.
         interfaces: laws written in Python by the names of interfaces, in place of those of the case.
-        materials: the same of materials by the names of regions, at finite strain of strain energies. Such runs are slow: a law is asked for each of its faces
-            or cells in each iteration, which takes 5 us and what Python needs for the law.
+        materials: the same of materials by the names of regions, at finite strain strain energies. Such runs are slow: a law
+            is asked for each of its faces or cells in each iteration, which takes 5 us and what Python needs for the law.
 
     Raises:
         InputError: what is wrong with the case, the mesh or a law, with file, line and key.

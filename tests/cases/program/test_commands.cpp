@@ -104,6 +104,8 @@ TEST(Completion, KnowsEveryCommandAndOption) {
   EXPECT_EQ(completed("/", {"pfdm", "run", "x", "--re"}), "--restart ");
   EXPECT_EQ(completed("/", {"pfdm", "sw"}), "sweep ");
   EXPECT_EQ(completed("/", {"pfdm", "completion", "z"}), "zsh ");
+  EXPECT_EQ(completed("/", {"pfdm", "help", "young"}), "young_modulus ");
+  EXPECT_EQ(completed("/", {"pfdm", "help", "swe"}), "sweep ");
   EXPECT_EQ(completed("/", {"pfdm", "cohesive", "x", "--export", "ab"}), "abaqus ");
   EXPECT_EQ(completed("/", {"pfdm", "cohesive", "x", "--units", "mm-k"}), "mm-kN-ms ");
   EXPECT_EQ(completed("/", {"pfdm", "run", "x", "--threads", ""}), " ");

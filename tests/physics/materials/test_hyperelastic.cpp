@@ -222,6 +222,54 @@ TEST(Hyperelastic, SimpleShearOfNeoHookean) {
   }
 }
 
+/// The shear part of a law of the table, as one of one's own.
+class Repeated final : public OwnStrainEnergy {
+ public:
+  Repeated(const HyperelasticLaw& law, HyperelasticParameters p) : law_(law), p_(std::move(p)) {}
+  double initial_stress() const override { return law_.initial_stress(p_); }
+  ShearEnergy at(const Tensor& E) const override { return law_.shear(p_, E); }
+
+ private:
+  const HyperelasticLaw& law_;
+  HyperelasticParameters p_;
+};
+
+HyperelasticParameters repeating(const HyperelasticLaw& law, const IsotropicElasticity& of_energy, double nu) {
+  HyperelasticParameters p = parameters_of(law.name);
+  p.elasticity = of_energy;
+  return {.elasticity = from_young_poisson(rubber.young_modulus(), nu),
+          .own = std::make_shared<const Repeated>(law, p)};
+}
+
+TEST(Hyperelastic, EnergiesOfOnesOwnAreLawsLikeOthers) {
+  RandomTensors random;
+  for (const HyperelasticLaw& law : hyperelastic_laws()) {
+    const HyperelasticMaterial own(own_hyperelastic_law(), repeating(law, rubber, rubber.poisson_ratio()));
+    const HyperelasticMaterial known(law, parameters_of(law.name));
+    for (int i = 0; i < 20; ++i) {
+      const Tensor H = some_gradient(random);
+      const PotentialAt a = own.potential(H), b = known.potential(H);
+      EXPECT_NEAR(a.energy, b.energy, 1e-9 * rubber.mu) << law.name;
+      EXPECT_LE((a.stress - b.stress).norm(), 1e-9 * b.stress.norm()) << law.name;
+      EXPECT_LE((a.tangent - b.tangent).norm(), 1e-9 * b.tangent.norm()) << law.name;
+    }
+  }
+}
+
+TEST(Hyperelastic, EnergiesOfOnesOwnHaveTheModuliOfTheElasticity) {
+  using ::testing::HasSubstr;
+  const auto answer = [](std::string_view law, double nu_of_energy, double nu) {
+    const IsotropicElasticity of_energy = from_young_poisson(rubber.young_modulus(), nu_of_energy);
+    return message_of<InputError>([&] { make_own_hyperelastic(repeating(hyperelastic_law(law), of_energy, nu)); });
+  };
+  EXPECT_THAT(answer("neo_hookean", 0.40, 0.45), HasSubstr("they must be the same"));
+  EXPECT_THAT(answer("saint_venant_kirchhoff", 0.48, 0.48), HasSubstr("has a volume energy of its own"));
+  const auto own = make_own_hyperelastic(
+      repeating(hyperelastic_law("neo_hookean"), from_young_poisson(rubber.young_modulus(), 0.4999), 0.4999));
+  const auto& material = dynamic_cast<const HyperelasticMaterial&>(*own);
+  EXPECT_GT(material.pressure_modulus(), 0.99 * own->elasticity().lambda);
+}
+
 TEST(Hyperelastic, WrongParametersAreRefused) {
   const auto answer = [](std::string_view law, const HyperelasticParameters& p) {
     return message_of<InputError>([&] { make_hyperelastic(law, p); });
