@@ -160,6 +160,7 @@ void add_rare(Json& json, const BrowserPage& page, std::vector<PagePart>& parts)
     json["first"] = Json::array();
     for (const PageBlock& block : page.first) json["first"].push_back(json_of(block));
   }
+  if (!page.keys.empty()) json["keys"] = page.keys;
   if (!page.bodies.empty()) {
     json["bodies"] = json_of(page.bodies, parts);
     json["bodies_axis"] = {{"words", page.bodies_axis.words}, {"unit", page.bodies_axis.unit}};

@@ -63,11 +63,12 @@ struct BrowserPage {
   std::vector<std::pair<std::string, std::string>> origin;  ///< name and value
   std::string command;                                      ///< that makes the results again
   std::string case_text;
-  std::vector<std::string> steps;     ///< what to say of each row of the run's curve
-  std::optional<Body> body;           ///< whose steps are rows of the curve
-  std::vector<std::string> beside{};  ///< captions of blocks that stand beside the body
-  std::vector<PageBlock> first{};     ///< above the body, as wide as the page
-  std::vector<NamedBody> bodies{};    ///< in place of the body
+  std::vector<std::vector<std::string>> keys{};  ///< off their defaults: name, value, default
+  std::vector<std::string> steps;                ///< what to say of each row of the run's curve
+  std::optional<Body> body;                      ///< whose steps are rows of the curve
+  std::vector<std::string> beside{};             ///< captions of blocks that stand beside the body
+  std::vector<PageBlock> first{};                ///< above the body, as wide as the page
+  std::vector<NamedBody> bodies{};               ///< in place of the body
   BodiesAxis bodies_axis{};
   std::optional<RunSet> runs{};
   std::optional<LivePage> live{};

@@ -115,17 +115,24 @@ void insert_cell(vtkUnstructuredGrid& grid, const Mesh& mesh, const GridPoints& 
   grid.InsertNextCell(type, static_cast<vtkIdType>(all.size()), all.data(), faces.n_faces, faces.entries.data());
 }
 
-// VTK writes names into its XML as they are.
-std::string without_marks_of_xml(std::string name) {
-  for (char& c : name)
-    if (std::string_view("<>&\"'").find(c) != std::string_view::npos || static_cast<unsigned char>(c) < ' ') c = '_';
-  return name;
+// VTK writes names into its XML as they are. Readers get the name back, but "_" for control characters.
+std::string escaped_for_xml(std::string_view name) {
+  std::string escaped;
+  for (const char c : name) switch (c) {
+      case '<': escaped += "&lt;"; break;
+      case '>': escaped += "&gt;"; break;
+      case '&': escaped += "&amp;"; break;
+      case '"': escaped += "&quot;"; break;
+      case '\'': escaped += "&apos;"; break;
+      default: escaped += static_cast<unsigned char>(c) < ' ' ? '_' : c;
+    }
+  return escaped;
 }
 
 void add_region_numbers(vtkFieldData& data, const Mesh& mesh) {
   for (std::size_t r = 0; r < mesh.region_names.size(); ++r) {
     vtkNew<vtkIntArray> number;
-    number->SetName(without_marks_of_xml("region_" + mesh.region_names[r]).c_str());
+    number->SetName(escaped_for_xml("region_" + mesh.region_names[r]).c_str());
     number->InsertNextValue(static_cast<int>(r));
     data.AddArray(number);
   }

@@ -76,13 +76,6 @@ Rows origin_of(const fs::path& results, const std::string& hash) {
   return rows;
 }
 
-/// The case as it ran, or that in the folder above.
-fs::path case_of(const fs::path& results) {
-  for (const fs::path& file : {results / "case.toml", results.parent_path() / "case.toml"})
-    if (fs::exists(file)) return file;
-  return {};
-}
-
 std::string command_of(const fs::path& results, const std::string& given) {
   const fs::path file = case_of(results);
   if (file.empty()) return {};
@@ -163,6 +156,12 @@ bool is_told_elsewhere(const PageBlock& block, const BrowserExtras& extras) {
 std::string called_as() {
   const char* launcher = std::getenv("PFDM_LAUNCHER");
   return launcher != nullptr ? launcher : "pfdm";
+}
+
+fs::path case_of(const fs::path& results) {
+  for (const fs::path& file : {results / "case.toml", results.parent_path() / "case.toml"})
+    if (fs::exists(file)) return file;
+  return {};
 }
 
 std::string shell_word(const std::string& word) {

@@ -1,6 +1,8 @@
 #include "cases/program/session/report_parts.h"
 
+#include "cases/program/input/case_files/off_defaults.h"
 #include "cases/program/session/page_origin.h"
+#include "cases/program/session/runnable_case.h"
 #include "physics/error.h"
 #include "postproc/files/atomic_file.h"
 #include "postproc/files/other_case.h"
@@ -93,10 +95,25 @@ void remove_report(const std::filesystem::path& results) {
   }
 }
 
+std::vector<std::vector<std::string>> keys_off_defaults(const Session& session) {
+  const std::filesystem::path file = case_of(session.results);
+  if (file.empty() || session.read_case == nullptr) return {};
+  std::vector<std::vector<std::string>> rows;
+  try {
+    const CaseFile read = open_case(file);
+    session.read_case(read);
+    for (const OffDefault& key : off_defaults(read.config)) rows.push_back({key.path, key.value, key.otherwise});
+  } catch (const InputError&) {  // as one of an earlier version
+  }
+  return rows;
+}
+
 void write_pages(const std::filesystem::path& folder, const ReportPage& page, Session& session, BrowserExtras extras) {
   write_page(folder, page);
   session.log.say(fmt::format("written to {} and report.png", (folder / "report.pdf").string()));
-  write_browser_page(folder, browser_page(page, session.results, std::move(extras)));
+  BrowserPage in_browser = browser_page(page, session.results, std::move(extras));
+  in_browser.keys = keys_off_defaults(session);
+  write_browser_page(folder, in_browser);
   session.log.say(fmt::format("open in a browser: {}", (folder / "index.html").string()));
 }
 

@@ -73,6 +73,10 @@ struct CasePage {
   BrowserExtras extras{};
 };
 
+/// The keys of the case that ran, or of the one in the folder above, that are not at their defaults: name, value,
+/// default. None where there is no such case or this program reads it no more.
+std::vector<std::vector<std::string>> keys_off_defaults(const Session& session);
+
 /// report.pdf, report.png and index.html in a folder, and says so. Warnings, the case as it ran and where it comes from
 /// are taken from the session's results; of a fit verdict and estimates too. Throws ComputationError.
 void write_pages(const std::filesystem::path& folder, const ReportPage& page, Session& session, BrowserExtras extras);

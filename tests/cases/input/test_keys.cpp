@@ -1,6 +1,7 @@
 // Rows of keys: each says what it is; help, the schema for editors and the reference of the repository are made of
 // them.
 
+#include "cases/program/input/case_files/off_defaults.h"
 #include "cases/program/input/config/heat_units.h"
 #include "cases/program/kinds.h"
 #include "cases/program/reference/key_help.h"
@@ -10,6 +11,7 @@
 #include "cases/program/reference/unit_patterns.h"
 #include "tests/cases/temporary_case.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -195,6 +197,72 @@ TEST(KeyHelp, FindsKeysByWhatTheyTellOf) {
   EXPECT_THAT(run({"help", "particle"}).out, HasSubstr("particles\n"));
   EXPECT_THAT(run({"help", "ell"}).out, HasSubstr("others that tell of it: "));
   EXPECT_THAT(run({"help", "ell"}).out, HasSubstr("fracture.length"));
+}
+
+const KeyTable& layer_keys() {
+  using namespace keys;
+  static const KeyTable table{.name = "layers",
+                              .sentence = "Layers.",
+                              .keys = {{"name", text("name"), "", "Name."},
+                                       {"thickness", quantity(dimension::length), "\"0.2 mm\"", "Thickness."}}};
+  return table;
+}
+
+const KeyTable& oven_keys() {
+  using namespace keys;
+  static const KeyTable table{
+      .name = "",
+      .sentence = "An oven.",
+      .keys = {{"title", text("line"), "", "Title."},
+               {"air", quantity(dimension::temperature), "\"293.15 K\"", "Air."},
+               {"inside", quantity(dimension::temperature), "\"293.15 K\"", "Inside."},
+               {"steps", whole(range::count), "10", "Steps."},
+               {"axis", direction(), "[0, 0, 1]", "Axis."},
+               {"other_axis", direction(), "[0, 0, 1]", "Other axis."},
+               {"heat", varying(quantity(dimension::force)), "that of the file", "Heat."},
+               {"least", number(), "0: none", "Least."},
+               {"most", number(), "0: none", "Most."},
+               {"path", text("path"), "or table", "Path."},
+               {"side", either({quantity(dimension::length), choice("side", {"free"})}), "\"free\"", "Side."},
+               {"layers", tables(&layer_keys), "none", "Layers."}}};
+  return table;
+}
+
+TEST(KeysOffDefaults, AreThoseWithAnotherValue) {
+  const Config config(R"(title = "an oven"
+air = "20 degC"
+inside = "21 degC"
+steps = 12
+axis = [0, 0, 1.0]
+other_axis = [0, 1, 0]
+heat = { expr = "x", unit = "N" }
+least = 0.0
+most = 1e-9
+path = "a"
+side = "free"
+layers = [{ name = "a", thickness = "200 um" }, { name = "b", thickness = "<b>2 mm" }]
+)",
+                      "case.toml");
+  for (const ConfigTable& layer : config.root().with_keys(oven_keys()).tables("layers")) layer.has("name");
+  std::vector<std::string> found;
+  for (const OffDefault& key : off_defaults(config))
+    found.push_back(fmt::format("{}: {}, not {}", key.path, key.value, key.otherwise));
+  EXPECT_THAT(found,
+              testing::ElementsAre("inside: \"21 degC\", not \"293.15 K\"", "steps: 12, not 10",
+                                   "other_axis: [0, 1, 0], not [0, 0, 1]",
+                                   "heat: { expr = \"x\", unit = \"N\" }, not that of the file",
+                                   "most: 1e-9, not 0: none", "layers[1].thickness: \"<b>2 mm\", not \"0.2 mm\""));
+}
+
+TEST(KeysOffDefaults, CutsLongValuesBetweenCharacters) {
+  std::string text = "layers = [{ name = \"a\", thickness = \"";
+  for (int i = 0; i < 101; ++i) text += "µ";
+  const Config config(text + "\" }]\n", "case.toml");
+  config.root().with_keys(oven_keys()).tables("layers");
+  const std::vector<OffDefault> found = off_defaults(config);
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0].value.size(), 199u + 4u);  // the quote, 99 of two bytes, " ..."
+  EXPECT_TRUE(found[0].value.ends_with("µ ..."));
 }
 
 TEST(KeySchema, OfTheRepositoryIsThatOfTheRows) {

@@ -12,6 +12,8 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <map>
+
 namespace pfdm::this_file {
 namespace {
 
@@ -80,6 +82,23 @@ TEST(Browser, ShowsWhatACaseSaysAsText) {
   EXPECT_THAT(html, Not(HasSubstr("<script>alert")));
   EXPECT_THAT(data_of_page(html)["title"].get<std::string>(),
               HasSubstr("</script><script>alert('x')</script> \"µ\" & <b>"));
+}
+
+TEST(Browser, NamesKeysOffTheirDefaultsAndRegionsAsTheyAreGiven) {
+  std::string text = replaced(bar_case(), "name = \"weak\"", "name = \"we<ak>&\"");
+  text = replaced(text, "\"bar\", \"weak\"", "\"bar\", \"we<ak>&\"");
+  const TemporaryCase directory(replaced(text, "[regions.weak]", "[regions.\"we<ak>&\"]"));
+  const auto data = data_of_page(page_of(directory));
+  std::map<std::string, std::string> value, otherwise;
+  for (const auto& row : data["keys"]) {
+    value[row[0]] = row[1];
+    otherwise[row[0]] = row[2];
+  }
+  EXPECT_EQ(value["loading.initial_increment"], "0.1");
+  EXPECT_EQ(otherwise["loading.initial_increment"], "0.05");
+  EXPECT_EQ(value["output.frames_at"], "[\"0.006 mm\"]");
+  EXPECT_EQ(value.count("materials.concrete.young_modulus"), 0u);  // required
+  EXPECT_EQ(data["body"]["regions"], (std::vector<std::string>{"bar", "we<ak>&"}));
 }
 
 TEST(Browser, PageOfAMaterialPointHasItsCurves) {

@@ -202,4 +202,6 @@ const std::vector<std::string>& Config::remarks() const { return source_->remark
 
 void Config::reject_unknown_keys() const { source_->reject_unknown_keys(); }
 
+std::vector<GivenKey> Config::given_keys() const { return source_->given_keys(); }
+
 }  // namespace pfdm

@@ -179,6 +179,13 @@ class ConfigTable {
 /// unit.
 enum class BareNumbers { refused, in_si };
 
+/// A key that stands in a case file and has a row.
+struct GivenKey {
+  std::string path;  ///< "mesh.particles[0].diameter"
+  const Key* row = nullptr;
+  const TomlValue* value = nullptr;  ///< the Config's
+};
+
 /// A case file. Keep it until reject_unknown_keys() has been called, after everything was read.
 class Config {
  public:
@@ -188,6 +195,9 @@ class Config {
   void reject_unknown_keys() const;
   /// What those who read it have noted so far, with its places.
   const std::vector<std::string>& remarks() const;
+  /// The keys of the tables that were read, in the order of the text; tables stand for themselves where a plain value
+  /// could, as { expr, unit }, and else by their keys.
+  std::vector<GivenKey> given_keys() const;
 
  private:
   std::shared_ptr<ConfigSource> source_;

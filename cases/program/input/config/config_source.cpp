@@ -27,6 +27,32 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
   return row.back();
 }
 
+/// Whether nothing but tables may stand there, alone, in a list or under names.
+bool is_of_tables(const KeyType& type) {
+  using enum KeyType::Kind;
+  return type.kind == table || ((type.kind == list || type.kind == names) && is_of_tables(type.parts.front()));
+}
+
+/// Adds the keys of the tables in `value`, which stands at `path`.
+void add_given(const ConfigSource& source, const TomlValue& value, const std::string& path,
+               std::vector<GivenKey>& given) {
+  if (const auto* array = std::get_if<TomlArray>(&value.value))
+    for (std::size_t i = 0; i < array->size(); ++i)
+      add_given(source, (*array)[i], fmt::format("{}[{}]", path, i), given);
+  const auto* table = std::get_if<TomlTable>(&value.value);
+  const auto looked_into = source.opened.find(table);
+  if (table == nullptr || looked_into == source.opened.end()) return;
+  const std::vector<const Key*>& rows = looked_into->second.rows;
+  for (const auto& [name, entry] : *table) {
+    const auto row = std::ranges::find(rows, name, &Key::name);
+    const std::string below = ConfigSource::subtable(path, name);
+    if (row != rows.end() && !is_of_tables((*row)->type))
+      given.push_back({.path = below, .row = *row, .value = &entry});
+    else
+      add_given(source, entry, below, given);
+  }
+}
+
 }  // namespace
 
 std::optional<std::string> nearest(std::string_view word, std::span<const std::string> candidates) {
@@ -99,6 +125,12 @@ void ConfigSource::reject_unknown_in(const TomlValue& value) const {
       throw idle_key(looked_into->second, key, entry.key_line);
     reject_unknown_in(entry);
   }
+}
+
+std::vector<GivenKey> ConfigSource::given_keys() const {
+  std::vector<GivenKey> given;
+  add_given(*this, root, "", given);
+  return given;
 }
 
 const KeyType& due_of(const KeyType* type, KeyType::Kind kind, const std::string& place) {

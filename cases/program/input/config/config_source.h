@@ -43,6 +43,7 @@ struct ConfigSource {
   InputError unknown_key(const Opened& table, const std::string& key, int line, bool list) const;
   /// Throws InputError for the first key that nobody asked for.
   void reject_unknown_keys() const { reject_unknown_in(root); }
+  std::vector<GivenKey> given_keys() const;
 
  private:
   std::string said_at(int line, const std::string& message) const;

@@ -6,6 +6,7 @@ import { integers, octets, quantised } from "./bytes.js";
 import { colour_of, element, save, shown } from "./elements.js";
 import { quantities_of } from "./quantities.js";
 import { Scene } from "./scene.js";
+import { Vibration } from "./vibration.js";
 
 const broken = 0.95;
 
@@ -23,7 +24,8 @@ async function unpacked(body) {
   ]);
   const n = body.n_points;
   const places = await Promise.all(body.points.map((axis) => quantised(axis, 1, n)));
-  const moves = await Promise.all(body.displacement.map((axis) => quantised(axis, body.frames.length, n)));
+  const n_moves = body.vibrates ? 2 : body.frames.length;
+  const moves = await Promise.all(body.displacement.map((axis) => quantised(axis, n_moves, n)));
   const fields = await Promise.all(
     body.fields.map((field) => quantised(field.values, body.frames.length, shape.length)),
   );
@@ -62,6 +64,7 @@ export class Body {
 
   async load() {
     Object.assign(this, await unpacked(this.data));
+    if (this.data.vibrates) this.vibration = new Vibration(this);
     this.prepare();
   }
 
@@ -83,7 +86,7 @@ export class Body {
     this.size = this.upper.map((v, i) => v - this.lower[i]);
     this.length = Math.hypot(...this.size);
     let most = 0;
-    for (let f = 0; f < data.frames.length; ++f)
+    for (let f = 0; f < (data.vibrates ? 1 : data.frames.length); ++f)
       for (let i = 0; i < data.n_points; ++i)
         most = Math.max(most, Math.hypot(...this.moves.map((axis) => axis[f][i])));
     this.most_moved = most;
@@ -97,8 +100,7 @@ export class Body {
     this.quantities = quantities_of(data, this.moves, this.fields, most);
     const has_damage =
       this.quantities[0].name === "damage" && this.fields[0].some((block) => block.some((v) => v > 0.05));
-    this.quantity = this.quantities[has_damage ? 0 : Math.min(1, this.quantities.length - 1)];
-    if (!has_damage && this.quantities.length > 3) this.quantity = this.quantities[1];
+    this.quantity = this.quantities[this.quantities[0].name === "damage" && !has_damage ? 1 : 0];
     this.damage = this.quantities[0].name === "damage" ? this.fields[0] : null;
   }
 
@@ -252,6 +254,7 @@ export class Body {
   }
 
   play() {
+    if (this.data.frames.length === 1) return this.vibration?.play();
     if (this.timer) return this.stop();
     this.play_button.textContent = "\u25a0 Stop";
     if (this.frame === this.data.frames.length - 1) this.go(0);
@@ -281,8 +284,13 @@ export class Body {
       return [low, high];
     });
     const middle = moved.map(([low, high]) => (low + high) / 2);
+    const is_thin = this.size[2] < 0.3 * Math.min(this.size[0], this.size[1]);
     let direction =
-      this.cut.axis === 0 ? [0.86, -0.42, 0.28] : this.cut.axis === 2 ? [0.4, -0.5, 0.77] : [0.42, -0.86, 0.28];
+      this.cut.axis === 0
+        ? [0.86, -0.42, 0.28]
+        : this.cut.axis === 2 || (this.cut.axis < 0 && is_thin)
+          ? [0.4, -0.5, 0.77]
+          : [0.42, -0.86, 0.28];
     let up = [0, 0, 1];
     if (this.is_flat) {
       direction = [

@@ -56,7 +56,12 @@ export function controls_of(body) {
       body.draw();
     },
   });
-  const steps = element("div", { class: "steps", hidden: last === 0 }, body.play_button, body.slider);
+  const steps = element(
+    "div",
+    {},
+    element("div", { class: "steps", hidden: last === 0 }, body.play_button, body.slider),
+    body.vibration?.controls(),
+  );
   body.scale = element("div", { class: "scale" });
   const choices = [
     element(

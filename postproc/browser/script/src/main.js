@@ -75,10 +75,25 @@ const figure = ({ label, value, note }) =>
     note ? element("span", {}, note) : null,
   );
 
+function keys_off_defaults(keys) {
+  const row = (tag, cells) => element("tr", {}, ...cells.map((cell) => element(tag, {}, cell)));
+  return element(
+    "details",
+    {},
+    element("summary", {}, `Keys off their defaults (${keys.length})`),
+    element(
+      "div",
+      { class: "scrolls" },
+      element("table", { class: "keys" }, row("th", ["key", "value", "default"]), ...keys.map((cells) => row("td", cells))),
+    ),
+  );
+}
+
 function origin() {
   const rows = data.origin.map(([name, value]) => element("tr", {}, element("td", {}, name), element("td", {}, value)));
   const section = element("section", {}, element("h2", {}, "Where it comes from"), element("table", {}, ...rows));
   if (data.command) section.append(element("p", {}, "Made again by ", element("code", {}, data.command)));
+  if (data.keys) section.append(keys_off_defaults(data.keys));
   if (data.case_text)
     section.append(
       element(

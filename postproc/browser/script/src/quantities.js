@@ -12,6 +12,12 @@ function quantile_range(blocks, scale) {
   return [at(0.002), at(0.998)];
 }
 
+function range_of_component(data, moves) {
+  if (!data.vibrates) return [data.displacement[data.component].from, data.displacement[data.component].to];
+  const most = moves[data.component][0].reduce((a, b) => Math.max(a, Math.abs(b)), 0);
+  return [-most, most];
+}
+
 /** Of the data of a body and its unpacked numbers; `most`: the largest displacement [m]. */
 export function quantities_of(data, moves, fields, most) {
   const displacement = {
@@ -26,9 +32,7 @@ export function quantities_of(data, moves, fields, most) {
     unit: displacement.unit,
     factor: displacement.factor,
     at_points: (f, i) => moves[data.component][f][i],
-    range: [data.displacement[data.component].from, data.displacement[data.component].to].map(
-      (v) => v * displacement.factor,
-    ),
+    range: range_of_component(data, moves).map((v) => v * displacement.factor),
   };
   const quantities = data.fields.map((field, k) => ({
     ...field,
