@@ -78,37 +78,17 @@ std::vector<double> von_mises(const StoredCells& frame, const std::vector<Index>
 void add_fields(Body& body, const StoredCells& frame, const std::vector<Index>& cells) {
   constexpr const char* rise = "temperature_rise";
   if (body.fields.empty()) {
-    body.fields = {{.name = "damage", .si_unit = {}, .frames = {}},
-                   {.name = "stress, von Mises", .si_unit = "Pa", .frames = {}},
-                   {.name = fmt::format("stress {0}{0}", "xyz"[body.component]), .si_unit = "Pa", .frames = {}}};
+    if (frame.has("damage")) body.fields.push_back({.name = "damage", .si_unit = {}, .frames = {}});
+    body.fields.push_back({.name = "stress, von Mises", .si_unit = "Pa", .frames = {}});
+    body.fields.push_back({.name = fmt::format("stress {0}{0}", "xyz"[body.component]), .si_unit = "Pa", .frames = {}});
     if (frame.has(rise)) body.fields.push_back({.name = "temperature rise", .si_unit = "K", .frames = {}});
   }
-  body.fields[0].frames.push_back(of_cells(frame.values("damage"), cells));
-  body.fields[1].frames.push_back(von_mises(frame, cells));
-  body.fields[2].frames.push_back(of_cells(frame.values("stress", body.component), cells));
-  if (body.fields.size() > 3) body.fields[3].frames.push_back(of_cells(frame.values(rise), cells));
-}
-
-/// Cells and points of the unparted mesh; the points that no chosen cell has are left out.
-void take_mesh(Body& body, const StoredCells& mesh, const std::vector<Index>& cells) {
-  const std::vector<std::uint8_t> shapes = mesh.shapes();
-  const std::vector<double> regions = mesh.values("material");
-  for (const Index cell : cells) {
-    body.shape.push_back(shapes[cell]);
-    body.region.push_back(static_cast<std::uint8_t>(std::min(255.0, regions[cell])));
-    mesh.append_corners(cell, body.corners, body.faces);
-  }
-  const std::vector<Vector> points = mesh.points();
-  std::vector<Index> number(points.size(), -1);
-  for (Index& corner : body.corners) {
-    Index& mine = number[corner];
-    if (mine < 0) {
-      mine = count_of(body.points);
-      body.points.push_back(points[corner]);
-      body.place.push_back(mine);
-    }
-    corner = mine;
-  }
+  auto field = body.fields.begin();
+  const auto add = [&](std::vector<double> values) { (field++)->frames.push_back(std::move(values)); };
+  if (field->name == "damage") add(of_cells(frame.values("damage"), cells));
+  add(von_mises(frame, cells));
+  add(of_cells(frame.values("stress", body.component), cells));
+  if (field != body.fields.end()) add(of_cells(frame.values(rise), cells));
 }
 
 /// Frames that the page has room for: 12 bytes for a point and a cell, packed to about a half and a third more as text.
@@ -123,36 +103,17 @@ std::vector<BodyFrame> taken_frames(const BodySettings& settings, const Body& bo
   return taken;
 }
 
-/// The axis across which a plane through the middle meets every cell.
-int flat_axis_of(const Body& body) {
-  std::array<bool, 3> flat{true, true, true};
-  const auto [lower, upper] = bounding_box(body.points);
-  const Vector middle = 0.5 * (lower + upper) + 1e-6 * (upper - lower);
-  for_each_cell(body, [&](std::size_t, std::span<const Index> corners) {
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const auto at = [&](Index p) { return body.points[p][axis]; };
-      const auto [low, high] = std::ranges::minmax(corners, {}, at);
-      flat[axis] = flat[axis] && at(low) <= middle[axis] && at(high) >= middle[axis];
-    }
-  });
-  for (const int axis : {2, 1, 0})
-    if (flat[axis]) return axis;
-  return -1;
-}
-
 }  // namespace
 
 Body read_body(const BodySettings& settings) {
-  Body body;
-  body.component = settings.component;
   const StoredCells mesh(settings.mesh);
   const std::vector<Vector> points = mesh.points();
   const auto [lower, upper] = bounding_box(points);
-  body.cut_at = settings.cut_at.value_or(0.5 * (lower + upper));
-  const BodyPart part = part_of(mesh, points, body.cut_at, settings.most_cells);
-  take_mesh(body, mesh, part.cells);
-  body.is_surface = part.is_surface;
-  body.flat_axis = flat_axis_of(body);
+  const Vector cut_at = settings.cut_at.value_or(0.5 * (lower + upper));
+  const BodyPart part = part_of(mesh, points, cut_at, settings.most_cells);
+  Body body = resting_body(mesh, part);
+  body.component = settings.component;
+  body.cut_at = cut_at;
   PointParts parts(body);
   for (const BodyFrame& given : taken_frames(settings, body)) {
     const StoredCells frame(given.file);

@@ -31,12 +31,16 @@ struct Body {
   /// Of a part of a body: of each face, cell by cell in VTK's order, that no other cell of the part has, whether it is
   /// the body's surface. Empty of a whole body.
   std::vector<std::uint8_t> is_surface;
-  std::vector<Index> steps;                       ///< of the frames
-  std::vector<std::vector<Vector>> displacement;  ///< of the points, frame by frame [m]
-  std::vector<BodyField> fields;   ///< damage, von Mises stress, stress along the load; with heat the rise
+  std::vector<Index> steps;  ///< of the frames
+  /// Of the points, frame by frame; of a body that vibrates real and imaginary part of its motion, the same in all
+  /// frames [m].
+  std::vector<std::vector<Vector>> displacement;
+  std::vector<BodyField> fields;   ///< damage where it is, von Mises stress, stress along the load; with heat the rise
   Vector cut_at = Vector::Zero();  ///< where planes across the axes cut first [m]
   int component = 2;               ///< direction of the load
   int flat_axis = -1;              ///< across which the body has one cell; -1: none
+  bool vibrates = false;
+  std::optional<int> cut_axis{};  ///< across which it is cut at first, -1: none; without a value by the load
 };
 
 /// A frame of a run.

@@ -78,7 +78,7 @@ void thin_out(Body& body, std::vector<Index>& numbers, std::size_t count) {
   for (std::size_t k = 0; k < count; ++k) kept.push_back(k * (body.steps.size() - 1) / (count - 1));
   keep_only(body.steps, kept);
   keep_only(numbers, kept);
-  keep_only(body.displacement, kept);
+  if (!body.vibrates) keep_only(body.displacement, kept);
   for (BodyField& field : body.fields) keep_only(field.frames, kept);
 }
 
@@ -114,10 +114,11 @@ Json whole_json(const Body& body, std::vector<PagePart>& parts, std::size_t n_be
           {"fields", std::move(fields)},
           {"frames", body.steps},
           {"cuts", body.is_surface.empty() ? "free" : "fixed"},
-          {"cut_axis", body.component == 1 ? 2 : 1},
+          {"cut_axis", body.cut_axis.value_or(body.component == 1 ? 2 : 1)},
           {"cut_at", vector_json(body.cut_at)},
           {"component", body.component},
           {"flat_axis", body.flat_axis},
+          {"vibrates", body.vibrates},
           {"displacement_unit", unit_json(display_unit(most_moved, "m"))},
           {"length_unit", unit_json(display_unit(longest, "m"))}};
 }

@@ -1,5 +1,7 @@
 #include "postproc/browser/body_part.h"
 
+#include "mesh/bounding_box.h"
+
 #include <algorithm>
 #include <array>
 #include <numeric>
@@ -69,6 +71,46 @@ void each_cell(const std::vector<std::uint8_t>& shapes, const std::vector<Index>
   }
 }
 
+/// Cells and points of the unparted mesh; the points that no chosen cell has are left out.
+void take_mesh(Body& body, const StoredCells& mesh, const std::vector<Index>& cells) {
+  const std::vector<std::uint8_t> shapes = mesh.shapes();
+  const std::vector<double> regions =
+      mesh.has("material") ? mesh.values("material") : std::vector<double>(shapes.size(), 0.0);
+  for (const Index cell : cells) {
+    body.shape.push_back(shapes[cell]);
+    body.region.push_back(static_cast<std::uint8_t>(std::min(255.0, regions[cell])));
+    mesh.append_corners(cell, body.corners, body.faces);
+  }
+  const std::vector<Vector> points = mesh.points();
+  std::vector<Index> number(points.size(), -1);
+  for (Index& corner : body.corners) {
+    Index& mine = number[corner];
+    if (mine < 0) {
+      mine = count_of(body.points);
+      body.points.push_back(points[corner]);
+      body.place.push_back(mine);
+    }
+    corner = mine;
+  }
+}
+
+/// The axis across which a plane through the middle meets every cell.
+int flat_axis_of(const Body& body) {
+  std::array<bool, 3> flat{true, true, true};
+  const auto [lower, upper] = bounding_box(body.points);
+  const Vector middle = 0.5 * (lower + upper) + 1e-6 * (upper - lower);
+  for_each_cell(body, [&](std::size_t, std::span<const Index> corners) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const auto at = [&](Index p) { return body.points[p][axis]; };
+      const auto [low, high] = std::ranges::minmax(corners, {}, at);
+      flat[axis] = flat[axis] && at(low) <= middle[axis] && at(high) >= middle[axis];
+    }
+  });
+  for (const int axis : {2, 1, 0})
+    if (flat[axis]) return axis;
+  return -1;
+}
+
 }  // namespace
 
 void for_each_cell(const Body& body, const std::function<void(std::size_t, std::span<const Index>)>& see) {
@@ -135,6 +177,14 @@ BodyPart part_of(const StoredCells& mesh, const std::vector<Vector>& points, con
     if (seen[cell] != 0 && lone_in_part[k++] != 0) part.is_surface.push_back(is_surface);
   });
   return part;
+}
+
+Body resting_body(const StoredCells& mesh, const BodyPart& part) {
+  Body body;
+  take_mesh(body, mesh, part.cells);
+  body.is_surface = part.is_surface;
+  body.flat_axis = flat_axis_of(body);
+  return body;
 }
 
 }  // namespace pfdm

@@ -19,6 +19,9 @@ struct BodyPart {
 /// [m].
 BodyPart part_of(const StoredCells& mesh, const std::vector<Vector>& points, const Vector& cut_at, Index most);
 
+/// Cells and points of the part as they are before anything moves, without frames.
+Body resting_body(const StoredCells& mesh, const BodyPart& part);
+
 /// Calls `see` with the number of each cell and its corners, as they are in Body::corners.
 void for_each_cell(const Body& body, const std::function<void(std::size_t, std::span<const Index>)>& see);
 

@@ -60,6 +60,7 @@ class BoxInLoadCases {
   }
 
   LoadCase solve(std::size_t k);
+  LoadCaseFields fields(std::size_t k) const;
   void add_energies(Homogenized& result) const;
 
   double volume() const { return sides_.volume(); }
@@ -120,6 +121,16 @@ void BoxInLoadCases::average(const std::vector<Vector>& u, LoadCase& result) con
   for (Index c = 0; c < mesh_.n_cells(); ++c)
     constitutive += mesh_.cell_volume[c] * pfdm::stress(moduli_[c], cells.strain[c]);
   result.constitutive_stress = to_mandel(constitutive / volume());
+}
+
+LoadCaseFields BoxInLoadCases::fields(std::size_t k) const {
+  CellMechanics cells = solver_.balance().mechanics(u_[k]);
+  LoadCaseFields fields{.displacement = CellField<Vector>(mesh_.n_cells()),
+                        .gradient = std::move(cells.gradient),
+                        .strain = std::move(cells.strain),
+                        .stress = std::move(cells.stress)};
+  std::copy_n(u_[k].begin(), mesh_.n_cells(), fields.displacement.begin());
+  return fields;
 }
 
 // By region [J].
@@ -184,7 +195,8 @@ Index homogenization_unknowns(const Mesh& mesh, const LinearComposite& composite
 }
 
 Homogenized homogenize(const Mesh& mesh, const LinearComposite& composite, const HomogenizationSettings& settings,
-                       const std::function<void(std::size_t, const LoadCase&)>& solved) {
+                       const std::function<void(std::size_t, const LoadCase&)>& solved,
+                       const std::function<void(std::size_t, const LoadCase&, const LoadCaseFields&)>& fields) {
   BoxInLoadCases box(mesh, composite, settings);
   Homogenized result;
   result.volume = box.volume();
@@ -196,6 +208,7 @@ Homogenized homogenize(const Mesh& mesh, const LinearComposite& composite, const
     LoadCase& one = result.cases[k] = box.solve(k);
     stresses.col(k) = one.stress;
     strains.col(k) = one.strain;
+    if (fields) fields(k, one, box.fields(k));
     if (solved) solved(k, one);
   }
   const MandelMatrix by_strain = strains.inverse(), C = stresses * by_strain;

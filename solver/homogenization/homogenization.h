@@ -55,6 +55,14 @@ struct LoadCase {
   double residual = 0.0;
 };
 
+/// What the cells do in a load case.
+struct LoadCaseFields {
+  CellField<Vector> displacement;  ///< [m]
+  CellField<Tensor> gradient;      ///< of the displacement, du_i/dx_j
+  CellField<Tensor> strain;
+  CellField<Tensor> stress;  ///< [Pa]
+};
+
 struct Homogenized {
   MandelMatrix stiffness;               ///< symmetric part of <sigma> <eps>^-1 [Pa]
   double asymmetry = 0.0;               ///< |C - C^T| / |C| before
@@ -76,8 +84,10 @@ Index homogenization_unknowns(const Mesh& mesh, const LinearComposite& composite
                               const HomogenizationSettings& settings);
 
 /// Throws InputError for a body that does not fill a box or whose sides do not match, ComputationError where a load
-/// case does not converge. `solved` is called after each load case, with its number from 0.
+/// case does not converge. `solved` is called after each load case, with its number from 0; `fields`, if it is there,
+/// gets the fields of each.
 Homogenized homogenize(const Mesh& mesh, const LinearComposite& composite, const HomogenizationSettings& settings,
-                       const std::function<void(std::size_t, const LoadCase&)>& solved = {});
+                       const std::function<void(std::size_t, const LoadCase&)>& solved = {},
+                       const std::function<void(std::size_t, const LoadCase&, const LoadCaseFields&)>& fields = {});
 
 }  // namespace pfdm

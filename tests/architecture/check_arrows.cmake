@@ -117,10 +117,10 @@ set(rooms
      cases/program/session cases/program/studies cases/program/fracture"
     "cases/cpp: physics mesh mesh/generators solver/fracture cases/program/fracture"
     "cases/program/plate: physics mesh solver solver/linear solver/scalar solver/momentum solver/dynamics solver/calibration
-     postproc/files postproc/fields postproc/curves postproc/fits postproc/vibration postproc/page cases/program/input cases/program/session
+     postproc/files postproc/fields postproc/curves postproc/fits postproc/vibration postproc/page postproc/browser cases/program/input cases/program/session
      cases/program/studies cases/program/fracture"
     "cases/program/homogenization: physics mesh solver/momentum solver/fracture solver/homogenization postproc/files
-     postproc/fields postproc/curves postproc/page cases/program/input cases/program/session cases/program/studies cases/program/fracture"
+     postproc/fields postproc/curves postproc/page postproc/browser cases/program/input cases/program/session cases/program/studies cases/program/fracture"
     "cases/python/extension: physics mesh mesh/files solver solver/fracture solver/homogenization solver/point solver/vibration
      postproc/files postproc/curves postproc/fields postproc/point cases/program/input cases/program/point cases/program/vibration cases/program/fracture
      cases/program/homogenization"

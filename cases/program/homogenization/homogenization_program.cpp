@@ -7,6 +7,7 @@
 #include "cases/program/homogenization/homogenization_keys.h"
 #include "cases/program/homogenization/homogenization_report.h"
 #include "cases/program/homogenization/homogenized_results.h"
+#include "cases/program/homogenization/load_case_frames.h"
 #include "cases/program/input/fields/field_reader.h"
 #include "cases/program/session/report_parts.h"
 #include "cases/program/session/whole_run.h"
@@ -16,6 +17,8 @@
 #include "postproc/files/folder_lock.h"
 
 #include <fmt/format.h>
+
+#include <optional>
 
 namespace pfdm {
 namespace {
@@ -110,12 +113,18 @@ void run_case(const HomogenizationProgram& program, Session& session) {
   const LinearComposite composite = composite_on(homogenization, mesh);
   homogenization_unknowns(mesh, composite, homogenization.settings);  // what is wrong with the body is said before
   const auto compute = [&](const std::filesystem::path& folder, const Stopwatch& watch) -> std::string {
-    const Homogenized result =
-        homogenize(mesh, composite, homogenization.settings, [&](std::size_t k, const LoadCase& one) {
-          log.step(fmt::format("load case {}: {} iterations, {:.1f} s", component_names[k], one.iterations,
-                               watch.seconds()));
-          log.progress(fmt::format("load case {} of 6", k + 1));
-        });
+    const auto solved = [&](std::size_t k, const LoadCase& one) {
+      log.step(
+          fmt::format("load case {}: {} iterations, {:.1f} s", component_names[k], one.iterations, watch.seconds()));
+      log.progress(fmt::format("load case {} of 6", k + 1));
+    };
+    std::optional<LoadCaseFrames> frames;
+    std::function<void(std::size_t, const LoadCase&, const LoadCaseFields&)> kept;
+    if (!session.figures_only) {
+      frames.emplace(folder, mesh);
+      kept = [&](std::size_t k, const LoadCase& one, const LoadCaseFields& fields) { frames->add(k, one, fields); };
+    }
+    const Homogenized result = homogenize(mesh, composite, homogenization.settings, solved, kept);
     const EffectiveMaterial material = effective_material(homogenization, mesh, result);
     write_homogenized(folder, homogenization, mesh, result, material, {program.name, program.hash, session.version});
     if (!session.figures_only) write_mesh(folder, mesh);
@@ -128,14 +137,22 @@ void run_case(const HomogenizationProgram& program, Session& session) {
              .title = homogenization.title,
              .hash = program.hash,
              .compute = compute,
-             .results = {homogenized_file, load_cases_file, "mesh.vtu", checkpoint_file, means_file},
+             .results = {homogenized_file, load_cases_file, "mesh.vtu", load_case_frames_file, load_case_folder,
+                         checkpoint_file, means_file},
              .remove_more = [&] { remove_earlier_run(session.results); }},
             session);
 }
 
 CasePage page_of(const HomogenizationProgram& program, const Session& session) {
-  return {.report = homogenization_page(program.homogenization.title, program.name, program.hash, session.results),
-          .extras = {.hash = program.hash}};
+  CasePage page{
+      .report = homogenization_page(program.homogenization.title, program.name, program.hash, session.results),
+      .extras = {.hash = program.hash}};
+  page.extras.headline = {headline_of_composite(session.results)};
+  page.extras.body = load_case_body(session.results);
+  page.extras.steps = words_of_load_cases();
+  for (const PageBlock& block : page.report.rows.front().blocks)
+    page.extras.beside.push_back(std::get<Table>(block).caption);
+  return page;
 }
 
 RunnableCase read_program(const CaseFile& file) {

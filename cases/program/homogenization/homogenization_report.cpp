@@ -100,4 +100,12 @@ ReportPage homogenization_page(const std::string& title, const std::string& name
   return page;
 }
 
+std::string headline_of_composite(const std::filesystem::path& results) {
+  const Json closest = read_homogenized(results / homogenized_file).json.at("isotropic");
+  const auto number = [&](const char* key) { return closest.at(key).get<double>(); };
+  return fmt::format("As stiff as an isotropic material of E = {} and ν = {}; anisotropy {:.2g} %.",
+                     shown(number("young_modulus_Pa"), "Pa"), shown(number("poisson_ratio")),
+                     100.0 * number("anisotropy"));
+}
+
 }  // namespace pfdm

@@ -12,4 +12,7 @@ namespace pfdm {
 ReportPage homogenization_page(const std::string& title, const std::string& name, const std::string& hash,
                                const std::filesystem::path& results);
 
+/// In a sentence how stiff the composite of these results is. Throws likewise.
+std::string headline_of_composite(const std::filesystem::path& results);
+
 }  // namespace pfdm

@@ -1,6 +1,7 @@
 #include "cases/program/plate/plate_program.h"
 
 #include "cases/program/fracture/outcome/fracture_results.h"
+#include "cases/program/plate/plate_browser.h"
 #include "cases/program/plate/plate_fit.h"
 #include "cases/program/plate/plate_keys.h"
 #include "cases/program/plate/plate_report.h"
@@ -168,7 +169,7 @@ RunnableCase read_program(const CaseFile& file) {
                         .page =
                             [program](const Session& session) {
                               return CasePage{.report = plate_page(*program, session),
-                                              .extras = {.hash = program->hash}};
+                                              .extras = plate_extras(*program, session.results)};
                             },
                         .data_files = program->parsed.data_files};
   if (!program->fit)

@@ -52,11 +52,17 @@ Chart response_chart(const PlateCase& c, const CsvTable& response, bool phase) {
 
 Chart temperature_chart(const CsvTable& heating) {
   const std::vector<double> minutes = scaled(heating.column("time_s"), 1.0 / 60.0);
-  return {.caption = "Surface temperature",
-          .x = {.title = "time [min]", .from = 0.0},
-          .y = {.title = "rise [K]", .from = 0.0},
-          .series = {{.label = "mean", .x = minutes, .y = heating.column("surface_mean_rise_K"), .colour = 0},
-                     {.label = "largest", .x = minutes, .y = heating.column("surface_largest_rise_K"), .colour = 1}}};
+  return {
+      .caption = "Surface temperature",
+      .x = {.title = "time [min]", .from = 0.0},
+      .y = {.title = "rise [K]", .from = 0.0},
+      .series = {
+          {.label = "mean", .x = minutes, .y = heating.column("surface_mean_rise_K"), .colour = 0, .of_steps = true},
+          {.label = "largest",
+           .x = minutes,
+           .y = heating.column("surface_largest_rise_K"),
+           .colour = 1,
+           .of_steps = true}}};
 }
 
 Chart energy_chart(const CsvTable& heating) {
@@ -165,9 +171,10 @@ void add_motion(const PlateCase& c, const CsvTable& response, double driven, Tab
 
 Table figures_table(const PlateCase& c, const ReadSummary& summary, const CsvTable& response) {
   Table table{.caption = "Figures", .rows = {}};
-  const auto add = [&](const char* what, const char* name, const char* unit) {
+  constexpr std::string_view kelvin = "K";  // people write no mK
+  const auto add = [&](const char* what, const char* name, std::string_view unit) {
     if (const double value = summary.number(name); std::isfinite(value))
-      table.rows.push_back({what, shown(value, unit)});
+      table.rows.push_back({what, unit == kelvin ? fmt::format("{:.4g} K", value) : shown(value, unit)});
   };
   add("driven at", "driving_frequency_Hz", "Hz");
   if (const double driven = summary.number("driving_frequency_Hz"); std::isfinite(driven))

@@ -1,7 +1,10 @@
 // A case of kind "homogenize": results whose moduli are known in closed form, their numbers in other cases, scatter by
 // a sweep, and what is refused.
 
+#include "postproc/fields/pvd.h"
+#include "postproc/fields/stored_cells.h"
 #include "postproc/files/csv_table.h"
+#include "tests/cases/page_data.h"
 #include "tests/cases/temporary_case.h"
 
 #include <fmt/format.h>
@@ -78,6 +81,36 @@ TEST(HomogenizationCase, LaminateHasItsExactStiffnessDensityAndLoss) {
   const CsvTable cases = read_csv(directory.results() / "homogenized.csv");
   EXPECT_EQ(cases.n_rows(), 6u);
   EXPECT_NEAR(cases.column("strain_xy")[5], std::sqrt(0.5), 1e-12);
+}
+
+// Across the layers the stress is the same in both, and the soft one takes the strain.
+TEST(HomogenizationCase, HasAPageWithTheBodyInItsSixLoadCases) {
+  const TemporaryCase directory(laminate());
+  for (const char* command : {"run", "report"})
+    ASSERT_EQ(run({command, directory.path().string(), "--threads", "1"}).status, 0);
+  const nlohmann::json data = data_of_page(content_of(directory.results() / "report" / "index.html"));
+  EXPECT_EQ(data["steps"].size(), 6u);
+  EXPECT_EQ(data["body"]["frames"].size(), 6u);
+  EXPECT_EQ(data["body"]["regions"], (std::vector<std::string>{"soft", "stiff"}));
+  EXPECT_EQ(data["beside"][0].get<std::string>(), data["blocks"][0]["caption"].get<std::string>());
+  const std::vector<Frame> frames = read_pvd(directory.results() / "fields.pvd");
+  ASSERT_EQ(frames.size(), 6u);
+  const StoredCells across(directory.results() / frames[2].file);
+  const double stress = 0.01 * results_of(directory)["stiffness_Pa"][2][2].get<double>();
+  for (const double value : across.values("stress", 2)) EXPECT_NEAR(value / stress, 1.0, 1e-6);
+  const std::vector<double> material = across.values("material"), strain = across.values("strain", 2);
+  const double soft = stress / constrained_modulus(10e6, 0.4), stiff = stress / constrained_modulus(200e9, 0.3);
+  for (std::size_t c = 0; c < strain.size(); ++c)
+    EXPECT_NEAR(strain[c] / (material[c] == 0.0 ? soft : stiff), 1.0, 1e-5);
+  const std::vector<Vector> points = across.points(), moved = across.displacement();
+  int n_pairs = 0;
+  for (std::size_t p = 0; p < points.size(); ++p)
+    for (std::size_t q = 0; q < points.size(); ++q)
+      if (points[p].head<2>() == points[q].head<2>() && points[p].z() == 1e-3 && points[q].z() == 0.0) {
+        EXPECT_NEAR(moved[p].z() - moved[q].z(), 1e-5, 1e-9);  // 1 % of 1 mm
+        ++n_pairs;
+      }
+  EXPECT_EQ(n_pairs, 12);
 }
 
 // All materials lose the same part: so does the composite.

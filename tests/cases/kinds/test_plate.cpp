@@ -2,6 +2,7 @@
 
 #include "postproc/files/csv_table.h"
 #include "postproc/fits/fit_json.h"
+#include "tests/cases/page_data.h"
 #include "tests/cases/small_plate.h"
 #include "tests/cases/temporary_case.h"
 
@@ -62,6 +63,28 @@ TEST(Plate, HeatsUpAtItsResonanceAsTheClosedFormSays) {
   const Outcome report = run({"report", directory.path().string(), "--quiet"});
   EXPECT_EQ(report.status, 0) << report.err;
   EXPECT_TRUE(std::filesystem::exists(directory.results() / "report/report.pdf"));
+}
+
+TEST(Plate, HasAPageWithTheBodyThatVibrates) {
+  const TemporaryCase directory(small_plate());
+  const json summary = summary_of(directory);
+  ASSERT_EQ(run({"report", directory.path().string(), "--quiet"}).status, 0);
+  const json data = data_of_page(content_of(directory.results() / "report" / "index.html"));
+  const json body = data["body"];
+  EXPECT_EQ(body["vibrates"], true);
+  EXPECT_EQ(body["fields"][0]["name"], "temperature rise");
+  const CsvTable heating = read_csv(directory.results() / "temperature.csv");
+  EXPECT_EQ(data["steps"].size(), heating.n_rows());
+  EXPECT_EQ(body["frames"].front(), 0);
+  EXPECT_EQ(body["frames"].back(), heating.n_rows() - 1);
+  EXPECT_NEAR(body["fields"][0]["values"]["to"].get<double>(), summary["largest_rise_K"].get<double>(),
+              1e-6 * summary["largest_rise_K"].get<double>());
+  EXPECT_THAT(data["headline"][1].get<std::string>(), testing::HasSubstr("with 2 g0"));
+  const auto& charts = data["blocks"];
+  const auto surface =
+      std::ranges::find_if(charts, [](const json& b) { return b["caption"] == "Surface temperature"; });
+  ASSERT_NE(surface, charts.end());
+  EXPECT_EQ((*surface)["series"][0]["of_steps"], true);
 }
 
 // A modulus that falls lowers the resonance; at the frequency of the cold plate it then takes less power.
