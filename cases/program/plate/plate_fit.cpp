@@ -216,7 +216,7 @@ void fit_plate(const PlateProgram& program, Session& session) {
   write_fit_json(session.results / fit_file, report);
   say(fit, report, session.log);
   session.log.say(fmt::format("{} evaluations, {:.1f} s; {}; written to {}", result.evaluations, report.wall_seconds,
-                              result.message, session.results.string()));
+                              end_of_search(result.message), session.results.string()));
   say_verdict(report.found, session);
 }
 

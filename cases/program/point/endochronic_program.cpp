@@ -91,8 +91,7 @@ void run_case(const EndochronicProgram& program, Session& session) {
 }
 
 void say_estimates(const FitFindings& found, Log& log) {
-  for (const FittedParameter& p : found.parameters)
-    log.say(fmt::format("  {:<14} {:.6g} {}, {}", p.name, p.estimate, p.unit, interval_text(p.lower, p.upper)));
+  for (const FittedParameter& p : found.parameters) log.say(fmt::format("  {:<14} {}", p.name, estimate_text(p)));
 }
 
 void fit_case(const EndochronicProgram& program, Session& session) {
@@ -115,7 +114,7 @@ void fit_case(const EndochronicProgram& program, Session& session) {
   log.say(fmt::format("rms misfit {} of {} rms stress; {} evaluations, {:.1f} s; {}",
                       stress_shown(rms_misfit(found.fit.law, fit.experiments, fit.settings.control)),
                       stress_shown(rms_measured(fit.experiments)), found.fit.result.evaluations, seconds,
-                      found.fit.result.message));
+                      end_of_search(found.fit.result.message)));
   log.say(fmt::format("written to {}; run it with: pfdm run {}", session.results.string(),
                       (session.results / "case.fitted.toml").string()));
   say_verdict(findings, session);

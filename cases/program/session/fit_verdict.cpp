@@ -4,7 +4,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <string_view>
 
 namespace pfdm {
 
@@ -12,6 +15,22 @@ std::string interval_text(double lower, double upper, double confidence, int dig
   if (!std::isfinite(lower) || !std::isfinite(upper)) return "no interval";
   return fmt::format("{:g} % between {:.{}g} and {:.{}g}", 100.0 * confidence, lower, digits, upper, digits);
 }
+
+ScaledUnit unit_of_estimate(double estimate, const std::string& unit) {
+  constexpr std::array<std::string_view, 5> taking_prefix{"Pa", "m", "N", "Hz", "J"};
+  if (unit == "1") return {};
+  if (unit == "s") return scaled_seconds(estimate);
+  const std::string_view first = std::string_view(unit).substr(0, unit.find_first_of("/ "));
+  return std::ranges::count(taking_prefix, first) > 0 ? scaled_unit(estimate, unit) : ScaledUnit{1.0, unit};
+}
+
+std::string estimate_text(const FittedParameter& p, double confidence) {
+  const ScaledUnit unit = unit_of_estimate(p.estimate, p.unit);
+  return fmt::format("{:.6g}{}{}, {}", unit.factor * p.estimate, unit.name.empty() ? "" : " ", unit.name,
+                     interval_text(unit.factor * p.lower, unit.factor * p.upper, confidence));
+}
+
+std::string end_of_search(const std::string& message) { return message.substr(0, message.find(". ")); }
 
 std::string moved_text(const FittedParameter& p) {
   if (!std::isfinite(p.moved_by_finer)) return "";

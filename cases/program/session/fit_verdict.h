@@ -2,6 +2,7 @@
 // How every kind of fit says what is to be thought of it.
 
 #include "cases/program/session/session.h"
+#include "physics/quantity_text.h"
 #include "postproc/fits/fit_json.h"
 
 #include <string>
@@ -10,6 +11,16 @@ namespace pfdm {
 
 /// "95 % between 1 and 2", or that there is no interval; values with `digits` significant digits.
 std::string interval_text(double lower, double upper, double confidence = 0.95, int digits = 6);
+
+/// The unit in which people write an estimate, of one in SI: with a prefix where its first symbol takes one, as in
+/// "kN/m"; of numbers none.
+ScaledUnit unit_of_estimate(double estimate, const std::string& unit);
+
+/// "60.27 GPa, 95 % between 59.98 and 60.56", with six digits.
+std::string estimate_text(const FittedParameter& p, double confidence = 0.95);
+
+/// Why the search for the estimates ended, without the numbers of the optimiser.
+std::string end_of_search(const std::string& message);
 
 /// "; finer: +0.21 %" of an estimate that a finer discretisation was tried on, else nothing.
 std::string moved_text(const FittedParameter& p);

@@ -87,17 +87,6 @@ std::string command_of(const fs::path& results, const std::string& given) {
   return fmt::format("{} {} {}", called_as(), job, shell_word((is_default ? results.parent_path() : file).string()));
 }
 
-/// Of a number in `unit`: with a prefix where its first symbol takes one, as in "kN/m".
-DisplayUnit unit_of_estimate(double value, const std::string& unit) {
-  constexpr std::array taking_prefix{"Pa", "m", "N", "Hz", "J"};
-  const std::size_t end = std::min(unit.find_first_of("/ "), unit.size());
-  if (std::ranges::find(taking_prefix, unit.substr(0, end)) != taking_prefix.end()) {
-    const DisplayUnit first = display_unit(value, unit.substr(0, end));
-    return {.factor = first.factor, .name = first.name + unit.substr(end)};
-  }
-  return {.factor = 1.0, .name = unit == "1" ? "" : unit};
-}
-
 /// Without the unit that a name may end with: "k3" of "k3_N_per_m3".
 std::string symbol_of(const std::string& name, std::string unit) {
   if (unit == "1") return name;
@@ -110,7 +99,7 @@ std::string symbol_of(const std::string& name, std::string unit) {
 void add_fit(BrowserPage& page, const FitReport& fit) {
   page.headline.push_back(fmt::format("The fit is {}.", verdict_text(fit.found)));
   for (const FittedParameter& p : fit.found.parameters) {
-    const DisplayUnit unit = unit_of_estimate(p.estimate, p.unit);
+    const ScaledUnit unit = unit_of_estimate(p.estimate, p.unit);
     const bool has_interval = std::isfinite(p.lower) && std::isfinite(p.upper);
     page.figures.push_back({.label = symbol_of(p.name, p.unit),
                             .value = in_print(fmt::format("{:.4g} {}", unit.factor * p.estimate, unit.name)),

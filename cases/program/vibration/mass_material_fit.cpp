@@ -96,8 +96,7 @@ RepeatedIdentification repeats_of(const IdentifiedModel& found, const MassMateri
 
 void say_found(const IdentifiedModel& found, Log& log) {
   for (const FittedParameter& p : found.report.found.parameters)
-    log.say(fmt::format("  {:<18} {:>14.6g}   {}", p.name, p.estimate,
-                        interval_text(p.lower, p.upper, found.report.confidence)));
+    log.say(fmt::format("  {:<18} {}", p.name, estimate_text(p, found.report.confidence)));
   for (const ExperimentMisfit& test : found.report.experiments)
     log.say(fmt::format("  test {:<16} {}, relative misfit {:.3g}", test.name, test.fitted ? "fitted" : "predicted",
                         test.relative));

@@ -168,13 +168,10 @@ void fit_case(const ViscoelasticProgram& program, Session& session) {
   log.open_file(session.results / "fit.log", false);  // not before: it belongs to the estimates that are there
   const FitFindings findings = write_fit_results(session.results, program.file, fit, found,
                                                  {program.name, program.hash, session.version, seconds});
-  for (const FittedParameter& p : findings.parameters) {
-    const ScaledUnit unit = p.unit == "s" ? scaled_seconds(p.estimate) : scaled_unit(p.estimate, p.unit);
-    log.say(fmt::format("  {:<14} {:.6g} {}, {}", p.name, unit.factor * p.estimate, unit.name,
-                        interval_text(unit.factor * p.lower, unit.factor * p.upper)));
-  }
+  for (const FittedParameter& p : findings.parameters) log.say(fmt::format("  {:<14} {}", p.name, estimate_text(p)));
   log.say(fmt::format("largest misfit {:.3g} % of what was measured; {:.1f} s; {}",
-                      100.0 * relative_misfit(found.fit.law, fit.experiments), seconds, found.fit.result.message));
+                      100.0 * relative_misfit(found.fit.law, fit.experiments), seconds,
+                      end_of_search(found.fit.result.message)));
   log.say(fmt::format("written to {}; run it with: pfdm run {}", session.results.string(),
                       (session.results / "case.fitted.toml").string()));
   say_material(found.fit.law, log);

@@ -74,14 +74,21 @@ const nlohmann::ordered_json* strongest_law(const nlohmann::ordered_json& surfac
   return strongest;
 }
 
+/// Of the largest traction; next to nothing, against energy over strength, is what is left of a zero.
+std::string critical_separation(const nlohmann::ordered_json& law) {
+  constexpr double nothing = 1e-9;
+  const double separation = number_of(law.at("critical_separation_m"));
+  const double reach = number_of(law.at("surface_energy_J_per_m2")) / number_of(law.at("strength_Pa"));
+  return std::abs(separation) < nothing * reach ? "0" : shown_in({.si_unit = "m"}, separation);
+}
+
 std::string line_of_law(const nlohmann::ordered_json& surface) {
   const nlohmann::ordered_json* strongest = strongest_law(surface);
   if (strongest == nullptr) return {};
   const auto number = [&](const char* key) { return number_of(strongest->at(key)); };
   return fmt::format("law of \"{}\": largest normal traction {} at a separation of {}, surface energy {}{}",
                      surface.at("name").get<std::string>(), shown_in({.si_unit = "Pa"}, number("strength_Pa")),
-                     shown_in({.si_unit = "m"}, number("critical_separation_m")),
-                     quantity_text(number("surface_energy_J_per_m2"), "J/m^2"),
+                     critical_separation(*strongest), quantity_text(number("surface_energy_J_per_m2"), "J/m^2"),
                      strongest->at("traced").get<bool>() ? "" : "; not seen down to zero traction");
 }
 
@@ -110,12 +117,12 @@ std::optional<HeadFigure> figure_of_law(const nlohmann::ordered_json& surface) {
   const nlohmann::ordered_json* law = strongest_law(surface);
   if (law == nullptr) return std::nullopt;
   const auto number = [&](const char* key) { return number_of(law->at(key)); };
-  return HeadFigure{.label = fmt::format("Strength of \"{}\"", surface.at("name").get<std::string>()),
-                    .value = shown_in({.si_unit = "Pa"}, number("strength_Pa")),
-                    .note = fmt::format("largest normal traction, at a separation of {}; surface energy {}{}",
-                                        shown_in({.si_unit = "m"}, number("critical_separation_m")),
-                                        quantity_text(number("surface_energy_J_per_m2"), "J/m^2"),
-                                        law->at("traced").get<bool>() ? "" : ", not seen down to zero traction")};
+  return HeadFigure{
+      .label = fmt::format("Strength of \"{}\"", surface.at("name").get<std::string>()),
+      .value = shown_in({.si_unit = "Pa"}, number("strength_Pa")),
+      .note = fmt::format("largest normal traction, at a separation of {}; surface energy {}{}",
+                          critical_separation(*law), quantity_text(number("surface_energy_J_per_m2"), "J/m^2"),
+                          law->at("traced").get<bool>() ? "" : ", not seen down to zero traction")};
 }
 
 /// "the lower pole", or "polar angles of 40 to 70 degrees".

@@ -207,7 +207,7 @@ void write_curve_fit(const CurveFitJob& job, const CurveFitFindings& found, Sess
   for (const FittedField& field : report.fields) say_field(field, session.log);
   session.log.say(fmt::format("{}{}; {:.1f} s; {}", counts_text(found.runs),
                               found.coarse_runs ? ", of the coarse case " + counts_text(*found.coarse_runs) : "",
-                              found.seconds, report.found.message));
+                              found.seconds, end_of_search(report.found.message)));
   session.log.say(fmt::format("written to {}; run it with: pfdm run {}", results.string(),
                               (results / "case.fitted.toml").string()));
   say_verdict(report.found, session);
