@@ -3,8 +3,8 @@
     in ParaView (5.11 and later): File, Load State, this file
     without a window: pvpython --force-offscreen-rendering paraview_state.py [RESULTS [PICTURE.png]]
 
-RESULTS is the folder of a run of this case, by default `results` beside this file; it needs fields.pvd. Colours: damage of
-the cells. The pipeline: Clip (plane y = 0 through the axis of the bead), Threshold (damage up to 0.95), Warp By Vector
+RESULTS is the folder of a run of this case, by default `results` beside this file, with fields.pvd, or fields.vtkhdf
+(`output.format`; ParaView from 5.12 on). Colours: damage of the cells. The pipeline: Clip (plane y = 0 through the axis of the bead), Threshold (damage up to 0.95), Warp By Vector
 (displacement at the points, true to scale).
 """
 import os
@@ -19,11 +19,16 @@ except NameError:  # run from ParaView's window without a file
 arguments = sys.argv[1:]
 results = arguments[0] if arguments else os.path.join(here, "results")
 picture = arguments[1] if len(arguments) > 1 else None
-frames = os.path.join(results, "fields.pvd")
-if not os.path.exists(frames):
+frames, one_file = (os.path.join(results, name) for name in ("fields.pvd", "fields.vtkhdf"))
+if os.path.exists(one_file):
+    if GetParaViewVersion() < (5, 12):
+        sys.exit(f"{one_file}: ParaView {GetParaViewVersion()} knows no steps in such files; 5.12 does, and "
+                 "output.format = \"vtu\" suits all")
+    run = VTKHDFReader(registrationName="run", FileName=one_file)
+elif os.path.exists(frames):
+    run = PVDReader(registrationName="run", FileName=frames)
+else:
     sys.exit(f"{frames} does not exist: ./pfdm run cases/glass_bead_quick makes it")
-
-run = PVDReader(registrationName="run", FileName=frames)
 times = list(run.TimestepValues)
 scene = GetAnimationScene()
 scene.UpdateAnimationUsingDataTimeSteps()

@@ -1,11 +1,11 @@
 #pragma once
-// A frame (.vtu) of a run in memory, as VTK has it. For the files here that read frames.
+// A frame of a run in memory, as VTK has it. For the files here that read and write frames.
 
 #include "physics/tensor.h"
+#include "postproc/fields/vtu_writer.h"
 
-#include <vtkNew.h>
+#include <vtkSmartPointer.h>
 #include <vtkUnstructuredGrid.h>
-#include <vtkXMLUnstructuredGridReader.h>
 
 #include <filesystem>
 
@@ -13,14 +13,18 @@ namespace pfdm {
 
 class StoredGrid {
  public:
-  /// Throws InputError if the file cannot be read or has no cells.
+  /// Of a .vtu file, or one of those in the one file of a run (vtkhdf_frames.h). Throws InputError if it cannot be read
+  /// or has no cells.
   explicit StoredGrid(const std::filesystem::path& file);
 
-  vtkUnstructuredGrid* grid() const { return reader_->GetOutput(); }
+  vtkUnstructuredGrid* grid() const { return grid_; }
   Index n_cells() const { return static_cast<Index>(grid()->GetNumberOfCells()); }
 
  private:
-  vtkNew<vtkXMLUnstructuredGridReader> reader_;
+  vtkSmartPointer<vtkUnstructuredGrid> grid_;
 };
+
+/// As a .vtu file, whole or not at all. Throws ComputationError if it cannot be written.
+void write_grid(const std::filesystem::path& path, vtkUnstructuredGrid& grid, Compression compression);
 
 }  // namespace pfdm

@@ -120,14 +120,21 @@ class Geometries {
   std::vector<std::int64_t> part_, first_point_, first_cell_, first_corner_;  // of each step
 };
 
+/// In names of HDF5 "/" parts groups.
+std::string without_slashes(std::string name) {
+  std::ranges::replace(name, '/', '|');
+  return name;
+}
+
 /// A field of cells or points over the steps. Values that are those of the step before are not written again.
 class SteppedField {
  public:
   SteppedField(hid_t group, vtkDataArray& first)
       : name_(first.GetName()),
+        in_file_(without_slashes(name_)),
         components_(first.GetNumberOfComponents()),
         vtk_type_(first.GetDataType()),
-        data_(group, name_, type_of(first), components_ > 1 ? components_ : 0,
+        data_(group, in_file_, type_of(first), components_ > 1 ? components_ : 0,
               Geometries::chunk(first.GetNumberOfTuples())) {
     if (vtkInformation& of = *first.GetInformation(); of.Has(vtkDataArray::UNITS_LABEL()) != 0)
       data_.describe("units", of.Get(vtkDataArray::UNITS_LABEL()));
@@ -147,10 +154,10 @@ class SteppedField {
     offsets_.push_back(first_row_);
   }
 
-  void write_offsets(hid_t steps) const { write_list(steps, name_.c_str(), offsets_); }
+  void write_offsets(hid_t steps) const { write_list(steps, in_file_.c_str(), offsets_); }
 
  private:
-  std::string name_;
+  std::string name_, in_file_;
   int components_, vtk_type_;
   GrowingDataset data_;
   std::vector<char> last_;
@@ -182,6 +189,17 @@ class SteppedFields {
   std::deque<SteppedField> fields_;
 };
 
+/// What makes frames of the file again (vtkhdf_frames.h).
+void write_names(hid_t out, const std::vector<Frame>& frames, vtkUnstructuredGrid& grid) {
+  const Hdf5Handle group(H5Gcreate2(out, frame_names_group, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose);
+  std::string names;
+  for (const Frame& frame : frames) names += frame.file + "\n";
+  GrowingDataset(group, "names", hdf5_type<std::uint8_t>(), 0, names.size()).append(names.data(), names.size());
+  vtkDataArray* time = grid.GetFieldData()->GetArray("TimeValue");
+  if (time != nullptr && time->GetInformation()->Has(vtkDataArray::UNITS_LABEL()) != 0)
+    write_hdf5_text(group, "time_unit", time->GetInformation()->Get(vtkDataArray::UNITS_LABEL()));
+}
+
 void require_no_polyhedra(const Geometry& geometry, const fs::path& frame) {
   if (std::ranges::count(geometry.types, VTK_POLYHEDRON) > 0)
     throw InputError(fmt::format("{}: files of VTKHDF 2.0 have no polyhedra", frame.string()));
@@ -207,6 +225,7 @@ void write_frames(const std::vector<Frame>& frames, const fs::path& folder, cons
     Geometry geometry(grid);
     require_no_polyhedra(geometry, path);
     if (!geometries) {
+      write_names(out, frames, grid);
       geometries.emplace(root, geometry);
       of_cells.emplace(root, steps, "CellData", *grid.GetCellData());
       of_points.emplace(root, steps, "PointData", *grid.GetPointData());

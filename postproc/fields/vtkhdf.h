@@ -7,6 +7,9 @@
 
 namespace pfdm {
 
+/// Group with the names of the frames, for who reads them back (vtkhdf_frames.h); others do not look into it.
+inline constexpr const char* frame_names_group = "/pfdm";
+
 /// The extension of the file, ".vtkhdf".
 inline constexpr const char* vtkhdf_extension = ".vtkhdf";
 

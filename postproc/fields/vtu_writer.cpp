@@ -2,6 +2,7 @@
 
 #include "physics/error.h"
 #include "postproc/fields/split_points.h"
+#include "postproc/fields/stored_grid.h"
 #include "postproc/fields/vtk_arrays.h"
 #include "postproc/files/atomic_file.h"
 
@@ -209,6 +210,13 @@ VtuWriter::VtuWriter(const Mesh& mesh, const std::vector<Index>& faces, VtuSetti
 VtuWriter::~VtuWriter() = default;
 VtuWriter::VtuWriter(VtuWriter&&) noexcept = default;
 VtuWriter& VtuWriter::operator=(VtuWriter&&) noexcept = default;
+
+void write_grid(const std::filesystem::path& path, vtkUnstructuredGrid& grid, Compression compression) {
+  for (int i = 0; i < grid.GetFieldData()->GetNumberOfArrays(); ++i)
+    if (vtkDataArray* array = grid.GetFieldData()->GetArray(i); array != nullptr && array->GetName() != nullptr)
+      array->SetName(escaped_for_xml(array->GetName()).c_str());
+  write_file(path, serialise(grid, compression));
+}
 
 void VtuWriter::write(const std::filesystem::path& path, const std::vector<NamedField>& fields, double time,
                       const SplitPoints* points) const {

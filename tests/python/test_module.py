@@ -155,6 +155,26 @@ class Runs(Folder):
         with self.assertRaisesRegex(AttributeError, "damage, "):
             frame.nothing
 
+    def test_have_the_same_fields_in_one_file(self):
+        try:
+            import h5py  # noqa: F401
+        except ImportError:
+            self.skipTest("without h5py")
+        apart = bar(**{"output.frames_every": 2}).run(self.folder / "apart").frames
+        run = bar(**{"output.frames_every": 2, "output.format": "vtkhdf"}).run(self.folder / "one")
+        self.assertFalse((run.folder / "fields.pvd").exists())
+        self.assertEqual([(one.step, one.time) for one in run.frames], [(one.step, one.time) for one in apart])
+        for one, other in zip(run.frames, apart, strict=True):
+            for name in ("points", "connectivity", "offsets", "types"):
+                numpy.testing.assert_array_equal(getattr(one.grid, name), getattr(other.grid, name))
+            for data in ("cell_data", "point_data"):
+                of_one, of_other = getattr(one.grid, data), getattr(other.grid, data)
+                self.assertEqual(set(of_one), set(of_other))
+                for name, values in of_other.items():
+                    numpy.testing.assert_array_equal(of_one[name], values)
+            self.assertEqual(one.grid.units["stress"], "Pa")
+            self.assertEqual(one.grid.regions(), other.grid.regions())
+
     def test_have_the_cells_that_meshio_reads(self):
         try:
             import meshio

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 import numpy
 
 from .errors import MissingResult
+from .vtkhdf import read_frame, steps_in
 from .vtu import Grid, read_vtu
 
 if TYPE_CHECKING:
@@ -59,16 +60,17 @@ class Frame:
     Attributes:
         step: number of the load step.
         time: what ParaView shows as time: the displacement of the curve [m], or the load parameter.
-        path: the .vtu file.
+        path: the .vtu file, or the .vtkhdf file with all frames.
     """
 
-    def __init__(self, step: int, time: float, path: Path) -> None:
-        self.step, self.time, self.path = step, time, path
+    def __init__(self, step: int, time: float, path: Path, number: int | None = None) -> None:
+        """`number`: of the frame in a .vtkhdf file."""
+        self.step, self.time, self.path, self._number = step, time, path, number
 
     @cached_property
     def grid(self) -> Grid:
         """Points, cells and data; read when it is first asked for."""
-        return read_vtu(self.path)
+        return read_vtu(self.path) if self._number is None else read_frame(self.path, self._number)
 
     def names(self) -> list[str]:
         """Names of the arrays."""
@@ -253,6 +255,9 @@ class Results:
     @cached_property
     def frames(self) -> list[Frame]:
         """The fields that were written, in the order of the steps; each is read when it is looked at."""
+        one = self.folder / "fields.vtkhdf"
+        if one.exists():
+            return [Frame(step, time, one, k) for k, (step, time) in enumerate(steps_in(one))]
         path = self.folder / "fields.pvd"
         if not path.exists():
             raise MissingResult(f"{path} is not there: pfdm run writes it")

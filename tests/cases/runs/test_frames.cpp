@@ -1,6 +1,8 @@
 // What frames of a run are called by, and meshes of Gmsh as cases.
 
 #include "postproc/fields/pvd.h"
+#include "postproc/fields/vtkhdf_frames.h"
+#include "tests/cases/page_data.h"
 #include "tests/cases/temporary_case.h"
 
 #include <gmock/gmock.h>
@@ -47,17 +49,47 @@ TEST(Frames, HaveTheTimeThatIsAskedFor) {
               ElementsAre(testing::DoubleEq(6e-6), testing::DoubleEq(15e-6)));
 }
 
-TEST(Frames, StandInOneFileToo) {
+TEST(Frames, StandInOneFileInTheirPlace) {
   const TemporaryCase directory(with_output("format = \"vtkhdf\""));
   const std::vector<std::string> command{"run", directory.path().string(), "--threads", "1"};
   const Outcome outcome = run(command);
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_THAT(outcome.out, HasSubstr("fields.vtkhdf"));
-  EXPECT_TRUE(fs::exists(directory.results() / "fields.vtkhdf"));
-  EXPECT_EQ(read_pvd(directory.results() / "fields.pvd").size(), 2u);
+  EXPECT_EQ(frames_in(directory.results() / "fields.vtkhdf").size(), 2u);
+  EXPECT_FALSE(fs::exists(directory.results() / "fields.pvd"));
+  EXPECT_FALSE(fs::exists(directory.results() / "fields"));
   directory.write("case.toml", bar_case());
   ASSERT_EQ(run(command).status, 0);
   EXPECT_FALSE(fs::exists(directory.results() / "fields.vtkhdf"));
+  EXPECT_EQ(read_pvd(directory.results() / "fields.pvd").size(), 2u);
+}
+
+TEST(Frames, InOneFileGiveTheSamePage) {
+  nlohmann::json bodies[2];
+  for (const bool in_one : {false, true}) {
+    const TemporaryCase directory(with_output(in_one ? "format = \"vtkhdf\"" : "format = \"vtu\""));
+    for (const char* command : {"run", "report"})
+      ASSERT_EQ(run({command, directory.path().string(), "--threads", "1"}).status, 0);
+    EXPECT_EQ(fs::exists(directory.results() / "fields.pvd"), !in_one);
+    bodies[in_one] = data_of_page(content_of(directory.results() / "report" / "index.html"))["body"];
+  }
+  EXPECT_EQ(bodies[0]["frames"].size(), 2u);
+  EXPECT_EQ(bodies[0], bodies[1]);
+}
+
+TEST(Frames, InOneFileAreContinuedByARestart) {
+  const TemporaryCase directory(replaced(bar_case(), frames_at, "frames_every = 2\nformat = \"vtkhdf\""));
+  const std::string place = directory.path().string();
+  const fs::path whole = directory.path() / "whole", broken = directory.path() / "broken";
+  ASSERT_EQ(run({"run", place, "--output", whole.string()}).status, 0);
+  ASSERT_EQ(run({"run", place, "--output", broken.string(), "--max-steps", "4"}).status, 0);
+  EXPECT_EQ(frames_in(broken / "fields.vtkhdf").size(), 2u);
+  ASSERT_EQ(run({"run", place, "--output", broken.string(), "--restart"}).status, 0);
+  EXPECT_EQ(frames_in(broken / "fields.vtkhdf"), frames_in(whole / "fields.vtkhdf"));
+  EXPECT_TRUE(content_of(broken / "fields.vtkhdf") == content_of(whole / "fields.vtkhdf"));
+  ASSERT_EQ(run({"run", place, "--output", broken.string(), "--restart"}).status, 0);  // nothing is left to be done
+  EXPECT_EQ(frames_in(broken / "fields.vtkhdf"), frames_in(whole / "fields.vtkhdf"));
+  EXPECT_FALSE(fs::exists(broken / "fields.pvd"));
 }
 
 class BadFrames : public testing::TestWithParam<BadInput> {};

@@ -4,7 +4,10 @@
 #include "postproc/fields/frame.h"
 #include "postproc/fields/point_displacement.h"
 #include "postproc/fields/pvd.h"
+#include "postproc/fields/stored_grid.h"
 #include "postproc/fields/vtkhdf.h"
+#include "postproc/fields/vtkhdf_frames.h"
+#include "postproc/files/atomic_file.h"
 #include "postproc/hdf5/hdf5_handle.h"
 #include "tests/postproc/awkward_fields.h"
 #include "tests/postproc/boxes.h"
@@ -12,6 +15,8 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <vtkInformation.h>
+#include <vtkInformationStringKey.h>
 
 #include <string>
 
@@ -111,6 +116,84 @@ TEST_F(OneFile, has_once_what_stays) {
   EXPECT_THAT(whole("Steps/CellDataOffsets/material"), ElementsAre(0, 0, 0));
   EXPECT_EQ(whole("CellData/material").size(), 216u);
   EXPECT_THAT(whole("Steps/CellDataOffsets/damage"), ElementsAre(0, 0, 216));
+}
+
+/// What both have by name, to the last bit.
+void expect_same(vtkFieldData& a, vtkFieldData& b) {
+  ASSERT_EQ(a.GetNumberOfArrays(), b.GetNumberOfArrays());
+  for (int i = 0; i < a.GetNumberOfArrays(); ++i) {
+    vtkDataArray& one = *a.GetArray(i);
+    vtkDataArray* other = b.GetArray(one.GetName());
+    ASSERT_NE(other, nullptr) << one.GetName();
+    ASSERT_EQ(one.GetDataType(), other->GetDataType()) << one.GetName();
+    ASSERT_EQ(one.GetNumberOfComponents(), other->GetNumberOfComponents());
+    ASSERT_EQ(one.GetNumberOfTuples(), other->GetNumberOfTuples());
+    for (vtkIdType t = 0; t < one.GetNumberOfTuples(); ++t)
+      for (int k = 0; k < one.GetNumberOfComponents(); ++k)
+        ASSERT_EQ(one.GetComponent(t, k), other->GetComponent(t, k)) << one.GetName();
+    const std::string component = one.GetComponentName(0) == nullptr ? "" : one.GetComponentName(0);
+    EXPECT_EQ(component, other->GetComponentName(0) == nullptr ? "" : other->GetComponentName(0)) << one.GetName();
+    const auto unit = [](vtkDataArray& array) -> std::string {
+      const char* text = array.GetInformation()->Get(vtkDataArray::UNITS_LABEL());
+      return text == nullptr ? "" : text;
+    };
+    EXPECT_EQ(unit(one), unit(*other)) << one.GetName();
+  }
+}
+
+void expect_same(vtkUnstructuredGrid& a, vtkUnstructuredGrid& b) {
+  ASSERT_EQ(a.GetNumberOfPoints(), b.GetNumberOfPoints());
+  ASSERT_EQ(a.GetNumberOfCells(), b.GetNumberOfCells());
+  for (vtkIdType p = 0; p < a.GetNumberOfPoints(); ++p)
+    for (int k = 0; k < 3; ++k) ASSERT_EQ(a.GetPoint(p)[k], b.GetPoint(p)[k]);
+  vtkNew<vtkIdList> one, other;
+  for (vtkIdType c = 0; c < a.GetNumberOfCells(); ++c) {
+    ASSERT_EQ(a.GetCellType(c), b.GetCellType(c));
+    a.GetCellPoints(c, one);
+    b.GetCellPoints(c, other);
+    ASSERT_EQ(one->GetNumberOfIds(), other->GetNumberOfIds());
+    for (vtkIdType i = 0; i < one->GetNumberOfIds(); ++i) ASSERT_EQ(one->GetId(i), other->GetId(i));
+  }
+  expect_same(*a.GetCellData(), *b.GetCellData());
+  expect_same(*a.GetPointData(), *b.GetPointData());
+  expect_same(*a.GetFieldData(), *b.GetFieldData());
+}
+
+TEST_F(OneFile, gives_the_frames_back) {
+  mesh_.region_names = {"a<b> & 'c'"};
+  write_three();
+  EXPECT_EQ(frames_in(file_), series_.frames());
+  for (std::size_t k = 0; k < 3; ++k)
+    expect_same(*read_back(folder_ / series_.frames()[k].file), *StoredGrid(frame_in_one_file(file_, k)).grid());
+}
+
+TEST_F(OneFile, is_unpacked_to_the_frames_that_it_was_made_of) {
+  mesh_.region_names = {"a<b> & 'c'"};
+  write_three();
+  const TemporaryFolder other;
+  unpack_frames(file_, other / "fields.pvd", Compression::zlib);
+  EXPECT_EQ(read_pvd(other / "fields.pvd"), series_.frames());
+  for (const Frame& frame : series_.frames())
+    expect_same(*read_back(folder_ / frame.file), *read_back(other / frame.file));
+}
+
+TEST_F(OneFile, that_is_damaged_is_refused) {
+  write_three();
+  EXPECT_THROW(StoredGrid(frame_in_one_file(file_, 3)), InputError);  // there are three
+  EXPECT_THROW(StoredGrid(file_ / "one"), InputError);
+  EXPECT_THROW(StoredGrid(folder_ / "none.vtkhdf" / "0"), InputError);
+  const std::string whole = content_of(file_);
+  for (const std::size_t size : {whole.size() / 8, whole.size() / 2, whole.size() - 1}) {
+    write_file(file_, whole.substr(0, size));
+    EXPECT_THROW(StoredGrid(frame_in_one_file(file_, 2)), InputError) << size;
+    EXPECT_THROW(frames_in(file_), InputError) << size;
+  }
+}
+
+TEST_F(OneFile, has_regions_with_slashes) {
+  mesh_.region_names = {"glass/one"};
+  write_three();
+  EXPECT_NE(StoredGrid(frame_in_one_file(file_, 0)).grid()->GetFieldData()->GetArray("region_glass|one"), nullptr);
 }
 
 TEST_F(OneFile, of_polyhedra_is_refused_and_leaves_none) {

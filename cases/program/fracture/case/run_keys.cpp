@@ -68,7 +68,7 @@ std::vector<Key> frame_keys() {
        "What ParaView takes for the time of the frames."},
       {"compression", choice("compression", {"zlib", "lz4", "none"}), "\"zlib\"", "Compression of the frames' files."},
       {"format", choice("format", {"vtu", "vtkhdf"}), "\"vtu\"",
-       "A .vtu file for each frame; with \"vtkhdf\" at the end of the run all frames in one file of HDF5, too."},
+       "A .vtu file for each frame, or with \"vtkhdf\" at the end of the run all frames in one file of HDF5."},
       {"slices_through", point(), "none", "Point through which planes are laid whose damaged areas the summary has."}};
 }
 

@@ -11,6 +11,7 @@
 #include "postproc/exports/export_formats.h"
 #include "postproc/fields/checkpoint.h"
 #include "postproc/fields/pvd.h"
+#include "postproc/fields/vtkhdf_frames.h"
 #include "postproc/files/text_file.h"
 
 #include <fmt/format.h>
@@ -29,16 +30,18 @@ void require_results(const fs::path& results, const std::string& case_hash) {
   read_checkpoint(checkpoint, case_hash);  // refuses another case's
 }
 
-// The frames that a .pvd lists.
-std::vector<StoredStep> steps_of(const fs::path& results, const char* list) {
-  if (!fs::exists(results / list)) return {};
+// The frames that a .pvd lists, or those in one file.
+std::vector<StoredStep> steps_of(const fs::path& results, const char* list, const char* one_file) {
+  const bool in_one = fs::exists(results / one_file);
+  if (!in_one && !fs::exists(results / list)) return {};
   std::vector<StoredStep> steps;
-  for (const Frame& frame : read_pvd(results / list)) {
+  for (const Frame& frame : in_one ? frames_in(results / one_file) : read_pvd(results / list)) {
     const std::string name = fs::path(frame.file).stem().string();
     const auto step = parse_int(std::string_view(name).substr(std::min(name.find('_') + 1, name.size())));
     if (!step)
-      throw InputError(fmt::format("{}: \"{}\" is not a frame that pfdm wrote", (results / list).string(), name));
-    steps.push_back({*step, results / frame.file});
+      throw InputError(fmt::format("{}: \"{}\" is not a frame that pfdm wrote",
+                                   (results / (in_one ? one_file : list)).string(), name));
+    steps.push_back({*step, in_one ? frame_in_one_file(results / one_file, steps.size()) : results / frame.file});
   }
   return steps;
 }
@@ -113,8 +116,12 @@ std::optional<RunSummary> find_summary(const fs::path& results) {
   return read_run_summary(results / summary_file);
 }
 
-std::vector<StoredStep> stored_steps(const fs::path& results) { return steps_of(results, frames_file); }
+std::vector<StoredStep> stored_steps(const fs::path& results) {
+  return steps_of(results, frames_file, frames_in_one_file);
+}
 
-std::vector<StoredStep> stored_interfaces(const fs::path& results) { return steps_of(results, interfaces_file); }
+std::vector<StoredStep> stored_interfaces(const fs::path& results) {
+  return steps_of(results, interfaces_file, interfaces_in_one_file);
+}
 
 }  // namespace pfdm

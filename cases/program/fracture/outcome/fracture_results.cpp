@@ -11,6 +11,7 @@
 #include "postproc/fields/point_displacement.h"
 #include "postproc/fields/slice.h"
 #include "postproc/fields/vtkhdf.h"
+#include "postproc/fields/vtkhdf_frames.h"
 #include "postproc/files/atomic_file.h"
 #include "postproc/files/text_file.h"
 
@@ -26,6 +27,9 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double seconds_at_stake = 2.0;  // that a killed run may lose, of those that leave figures only
+
+constexpr std::pair<const char*, const char*> lists_and_files[] = {{frames_file, frames_in_one_file},
+                                                                   {interfaces_file, interfaces_in_one_file}};
 
 /// Continues a list of frames up to the last step, or starts one.
 PvdSeries series_of(const fs::path& file, std::string (*frame_of)(Index step), std::optional<Index> last_step) {
@@ -88,6 +92,7 @@ FractureResults::FractureResults(fs::path directory, const Mesh& mesh, const Fra
   if (fs::exists(folder() / interfaces_folder)) remove_leftovers(folder() / interfaces_folder);
   std::optional<Index> last_step, last_frame;
   if (last) {
+    unpack_frames_in_one_file();
     last_step = last->step;
     const bool failed = status_of_earlier(directory_) != "complete";  // a frame of its end is not one that is due
     last_frame = failed && !frame_is_due(*last) ? last->step - 1 : last->step;
@@ -225,10 +230,24 @@ void FractureResults::write_last_frame(const Output& output) {
   if (frames.empty() || frames.back().file != frame_file(last_step_)) write_frame(last_step_, last_load_, output());
 }
 
-void FractureResults::write_frames_in_one_file() const {
+void FractureResults::put_frames_into_one_file() const {
   if (!fracture_.output.frames.in_one_file || files_->frames.frames().empty()) return;
-  write_vtkhdf(folder() / frames_file, folder() / frames_in_one_file);
-  if (files_->interfaces) write_vtkhdf(folder() / interfaces_file, folder() / interfaces_in_one_file);
+  for (const auto& [list, one_file] : lists_and_files) {
+    if (!fs::exists(folder() / list)) continue;
+    write_vtkhdf(folder() / list, folder() / one_file);
+    std::error_code ignored;
+    const std::vector<Frame> frames = read_pvd(folder() / list);
+    fs::remove(folder() / list, ignored);
+    for (const Frame& frame : frames) fs::remove(folder() / frame.file, ignored);
+    fs::remove((folder() / frames.front().file).parent_path(), ignored);  // unless there is something else in it
+  }
+}
+
+/// A run goes on with files of their own, which outlive a kill; these go with its first step.
+void FractureResults::unpack_frames_in_one_file() const {
+  for (const auto& [list, one_file] : lists_and_files)
+    if (fs::exists(folder() / one_file))
+      unpack_frames(folder() / one_file, folder() / list, fracture_.output.frames.file.compression);
 }
 
 std::map<std::string, double> FractureResults::damaged_areas() const {

@@ -52,8 +52,8 @@ class FractureResults {
   void write_what_waits(const FractureState& state);
   /// A frame of the last state, if it has none yet.
   void write_last_frame(const Output& output);
-  /// All frames in one file, if the case asks for it.
-  void write_frames_in_one_file() const;
+  /// All frames in one file in place of their own, if the case asks for it. The last that is done with frames.
+  void put_frames_into_one_file() const;
   /// Fills in what the curve and the last damage tell; returns the whole.
   RunSummary write_summary(RunSummary summary) const;
 
@@ -80,6 +80,7 @@ class FractureResults {
   bool frame_is_due(const FractureState& state) const;
   bool may_wait() const;
   void remove_frames_beyond(Index last_frame) const;
+  void unpack_frames_in_one_file() const;
   void write_state(const FractureState& state);
   void take_place(const FractureState& state);
   void write_frame(Index step, double load, const OutputFields& output);

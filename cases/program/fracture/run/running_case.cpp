@@ -122,7 +122,7 @@ std::string where_to_look(const std::filesystem::path& results) {
   const bool is_box = std::filesystem::exists(results / means_file);
   for (const auto& [what, file] :
        {std::pair("curve", is_box ? means_file : curve_file), std::pair("ParaView", "fields.pvd"),
-        std::pair("ParaView from 5.12 on, one file", frames_in_one_file), std::pair("laws", "cohesive.json"),
+        std::pair("ParaView from 5.12 on", frames_in_one_file), std::pair("laws", "cohesive.json"),
         std::pair("all steps", "run.log")})
     if (std::filesystem::exists(results / file))
       files += fmt::format("{}{} ({})", files.empty() ? "See " : ", ", file, what);
@@ -131,7 +131,7 @@ std::string where_to_look(const std::filesystem::path& results) {
 
 /// The summary is the last file of all: where it says "complete", all is there. Returns what is to be said at last.
 std::string finish(RunningCase& c, const std::string& status) {
-  c.results.write_frames_in_one_file();
+  c.results.put_frames_into_one_file();
   RunSummary summary = summary_of(c.program, c.session, c.run, c.times);
   summary.status = status;
   summary.other_figures = c.heat;
