@@ -24,6 +24,9 @@ class StoredGrid {
   vtkSmartPointer<vtkUnstructuredGrid> grid_;
 };
 
+/// A frame in the one file of a run (vtkhdf_frames.h), with all its fields. Throws InputError if it cannot be read.
+vtkSmartPointer<vtkUnstructuredGrid> read_frame_in_one_file(const std::filesystem::path& frame);
+
 /// As a .vtu file, whole or not at all. Throws ComputationError if it cannot be written.
 void write_grid(const std::filesystem::path& path, vtkUnstructuredGrid& grid, Compression compression);
 

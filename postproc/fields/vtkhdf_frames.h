@@ -4,9 +4,6 @@
 #include "postproc/fields/pvd.h"
 #include "postproc/fields/vtu_writer.h"
 
-#include <vtkSmartPointer.h>
-#include <vtkUnstructuredGrid.h>
-
 #include <cstddef>
 #include <filesystem>
 #include <vector>
@@ -19,11 +16,8 @@ std::filesystem::path frame_in_one_file(const std::filesystem::path& file, std::
 bool is_in_one_file(const std::filesystem::path& frame);
 
 /// Times and names of the frames in a file; the names are those of the files that they were made of. Throws InputError
-/// if it cannot be read or is not one of ours, like the next two.
+/// if it cannot be read or is not one of ours, like the next one.
 std::vector<Frame> frames_in(const std::filesystem::path& file);
-
-/// One frame with all its fields.
-vtkSmartPointer<vtkUnstructuredGrid> read_frame_in_one_file(const std::filesystem::path& frame);
 
 /// Writes the frames as files of their own by their names, which start at the folder of `list`, and then the list.
 /// Throws ComputationError if one cannot be written.

@@ -6,6 +6,7 @@
 #include "postproc/fields/point_displacement.h"
 #include "postproc/fields/pvd.h"
 #include "tests/postproc/opened_fields.h"
+#include "tests/postproc/pixels.h"
 #include "tests/postproc/temporary_folder.h"
 
 #include <fmt/format.h>
@@ -70,6 +71,33 @@ TEST(FramesInTools, paraview_warps_tetrahedra_and_prisms) { expect_opens("pvpyth
 
 TEST(FramesInTools, paraview_warps_polyhedra) {
   expect_opens("pvpython", "paraview", barycentric_dual(layered_bead()));
+}
+
+// The state of the shipped bead, with another bead.
+TEST(FramesInTools, paraview_draws_the_state_of_the_bead) {
+  const TemporaryFolder folder;
+  const Mesh mesh = layered_bead();
+  const OutputFields output = opened_fields(mesh, Vector::UnitZ(), 0.3, Vector::UnitZ());
+  const SplitPoints points = point_displacement(mesh, {}, output, 1.0);
+  VtuWriter(mesh).write(folder / "a.vtu", frame_fields(mesh, output), 0.5, &points);
+  PvdSeries(folder / "fields.pvd").add(0.5, "a.vtu");
+  const std::filesystem::path picture = folder / "bead.png";
+  const Said said =
+      run(fmt::format("pvpython --force-offscreen-rendering {}/../../cases/glass_bead_quick/paraview_state.py {} {}",
+                      PFDM_TEST_SCRIPTS, folder.path().string(), picture.string()));
+  if (said.status == 127) GTEST_SKIP() << "ParaView is not installed";
+  ASSERT_EQ(said.status, 0) << said.text;
+  const Pixels drawn = read_png(content_of(picture));
+  ASSERT_EQ(drawn.width, 900);
+  ASSERT_EQ(drawn.height, 900);
+  for (const int y : {2, 430}) EXPECT_EQ(*drawn.at(450, y), 255);  // above the body, and where the crack has opened
+  int n_drawn = 0;
+  for (int y = 0; y < 900; ++y)
+    for (int x = 0; x < 800; ++x) {  // beside the bar of colours
+      const unsigned char* p = drawn.at(x, y);
+      n_drawn += p[0] < 250 || p[1] < 250 || p[2] < 250 ? 1 : 0;
+    }
+  EXPECT_GT(n_drawn, 100000);
 }
 
 }  // namespace
