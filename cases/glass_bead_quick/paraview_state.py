@@ -20,13 +20,13 @@ arguments = sys.argv[1:]
 results = arguments[0] if arguments else os.path.join(here, "results")
 picture = arguments[1] if len(arguments) > 1 else None
 frames, one_file = (os.path.join(results, name) for name in ("fields.pvd", "fields.vtkhdf"))
-if os.path.exists(one_file):
+if os.path.exists(frames):
+    run = PVDReader(registrationName="run", FileName=frames)
+elif os.path.exists(one_file):
     if GetParaViewVersion() < (5, 12):
         sys.exit(f"{one_file}: ParaView {GetParaViewVersion()} knows no steps in such files; 5.12 does, and "
                  "output.format = \"vtu\" suits all")
     run = VTKHDFReader(registrationName="run", FileName=one_file)
-elif os.path.exists(frames):
-    run = PVDReader(registrationName="run", FileName=frames)
 else:
     sys.exit(f"{frames} does not exist: ./pfdm run cases/glass_bead_quick makes it")
 times = list(run.TimestepValues)

@@ -165,11 +165,18 @@ class SteppedField {
   std::vector<std::int64_t> offsets_;
 };
 
+/// A group that keeps the order of what is put into it.
+hid_t ordered_group(hid_t root, const std::string& name) {
+  const Hdf5Handle ordered(H5Pcreate(H5P_GROUP_CREATE), H5Pclose);
+  H5Pset_link_creation_order(ordered, H5P_CRT_ORDER_TRACKED | H5P_CRT_ORDER_INDEXED);
+  return H5Gcreate2(root, name.c_str(), H5P_DEFAULT, ordered, H5P_DEFAULT);
+}
+
 /// The fields of the cells, of the points, or of the whole, with their two groups in the file.
 class SteppedFields {
  public:
   SteppedFields(hid_t root, hid_t steps, const std::string& name, vtkFieldData& first)
-      : group_(H5Gcreate2(root, name.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose),
+      : group_(ordered_group(root, name), H5Gclose),
         steps_(H5Gcreate2(steps, (name + "Offsets").c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose) {
     constexpr std::string_view time = "TimeValue";  // Steps/Values has it
     for (int i = 0; i < first.GetNumberOfArrays(); ++i)

@@ -107,7 +107,7 @@ class FrameFile {
     for (hsize_t i = 0; i < info.nlinks; ++i) {
       constexpr std::size_t longest = 1024;
       std::string name(longest, '\0');
-      if (H5Lget_name_by_idx(opened, ".", H5_INDEX_NAME, H5_ITER_INC, i, name.data(), longest, H5P_DEFAULT) < 0)
+      if (H5Lget_name_by_idx(opened, ".", H5_INDEX_CRT_ORDER, H5_ITER_INC, i, name.data(), longest, H5P_DEFAULT) < 0)
         throw lacks(group);
       names.emplace_back(name.c_str());
     }
@@ -244,8 +244,10 @@ void unpack_frames(const fs::path& file, const fs::path& list, Compression compr
     make_folder(path.parent_path());
     write_grid(path, *frame_of(in, static_cast<std::int64_t>(k)), compression);
   }
-  PvdSeries series(list);
-  for (const Frame& frame : frames) series.add(frame.time, frame.file);
+  replace_file(list, [&](const fs::path& temporary) {
+    PvdSeries series(temporary);
+    for (const Frame& frame : frames) series.add(frame.time, frame.file);
+  });
 }
 
 }  // namespace pfdm

@@ -19,7 +19,8 @@ bool is_in_one_file(const std::filesystem::path& frame);
 /// if it cannot be read or is not one of ours, like the next one.
 std::vector<Frame> frames_in(const std::filesystem::path& file);
 
-/// Writes the frames as files of their own by their names, which start at the folder of `list`, and then the list.
+/// Writes the frames as files of their own by their names, which start at the folder of `list`, and then the list,
+/// whole or not at all.
 /// Throws ComputationError if one cannot be written.
 void unpack_frames(const std::filesystem::path& file, const std::filesystem::path& list, Compression compression);
 

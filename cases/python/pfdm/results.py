@@ -255,10 +255,9 @@ class Results:
     @cached_property
     def frames(self) -> list[Frame]:
         """The fields that were written, in the order of the steps; each is read when it is looked at."""
-        one = self.folder / "fields.vtkhdf"
-        if one.exists():
+        path, one = self.folder / "fields.pvd", self.folder / "fields.vtkhdf"
+        if not path.exists() and one.exists():
             return [Frame(step, time, one, k) for k, (step, time) in enumerate(steps_in(one))]
-        path = self.folder / "fields.pvd"
         if not path.exists():
             raise MissingResult(f"{path} is not there: pfdm run writes it")
         sets = xml.parse(path).getroot().iter("DataSet")

@@ -32,8 +32,8 @@ void require_results(const fs::path& results, const std::string& case_hash) {
 
 // The frames that a .pvd lists, or those in one file.
 std::vector<StoredStep> steps_of(const fs::path& results, const char* list, const char* one_file) {
-  const bool in_one = fs::exists(results / one_file);
-  if (!in_one && !fs::exists(results / list)) return {};
+  const bool in_one = !fs::exists(results / list);
+  if (in_one && !fs::exists(results / one_file)) return {};
   std::vector<StoredStep> steps;
   for (const Frame& frame : in_one ? frames_in(results / one_file) : read_pvd(results / list)) {
     const std::string name = fs::path(frame.file).stem().string();

@@ -246,7 +246,7 @@ void FractureResults::put_frames_into_one_file() const {
 /// A run goes on with files of their own, which outlive a kill; these go with its first step.
 void FractureResults::unpack_frames_in_one_file() const {
   for (const auto& [list, one_file] : lists_and_files)
-    if (fs::exists(folder() / one_file))
+    if (!fs::exists(folder() / list) && fs::exists(folder() / one_file))
       unpack_frames(folder() / one_file, folder() / list, fracture_.output.frames.file.compression);
 }
 
