@@ -168,6 +168,7 @@ class SteppedField {
 /// A group that keeps the order of what is put into it.
 hid_t ordered_group(hid_t root, const std::string& name) {
   const Hdf5Handle ordered(H5Pcreate(H5P_GROUP_CREATE), H5Pclose);
+  H5Pset_obj_track_times(ordered, false);
   H5Pset_link_creation_order(ordered, H5P_CRT_ORDER_TRACKED | H5P_CRT_ORDER_INDEXED);
   return H5Gcreate2(root, name.c_str(), H5P_DEFAULT, ordered, H5P_DEFAULT);
 }

@@ -50,6 +50,7 @@ GrowingDataset::GrowingDataset(hid_t group, const std::string& name, hid_t type,
   const Hdf5Handle layout(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
   H5Pset_chunk(layout, rank, part.data());
   H5Pset_shuffle(layout);
+  H5Pset_obj_track_times(layout, false);  // the same content is the same file
   H5Pset_deflate(layout, compression_level);
   dataset_ = std::make_unique<Hdf5Handle>(
       H5Dcreate2(group, name.c_str(), type, space, H5P_DEFAULT, layout, H5P_DEFAULT), H5Dclose);
