@@ -50,8 +50,7 @@ void advance_volumes(const std::vector<PronyDecay>& shear, const VolumeChanges& 
 bool gaps_relax(const Material& material, const FractureModel& model) {
   if (material.relaxing() == nullptr) return false;
   if (material.is_finite_strain()) return true;
-  if (model.is_plane_stress()) return false;
-  return model.is_isotropic() || !relaxes_with_pressure(material);
+  return model.is_plane_stress() || model.is_isotropic() || !relaxes_with_pressure(material);
 }
 
 RelaxingGaps::RelaxingGaps(const Mesh& mesh, const CellField<const Material*>& materials, const FractureModel& model)
@@ -65,15 +64,22 @@ RelaxingGaps::RelaxingGaps(const Mesh& mesh, const CellField<const Material*>& m
     if (is_new && material != nullptr && gaps_relax(*material, model)) {
       at->second = count_of(kinds_);
       const bool has_pressure = relaxes_with_pressure(*material) && !model.is_plane_stress();
-      kinds_.push_back({.law = material->relaxing(), .has_pressure = has_pressure});
+      kinds_.push_back({.law = material->relaxing(),
+                        .has_pressure = has_pressure,
+                        .keeps_ratio = model.is_plane_stress() && !material->is_finite_strain()});
     }
     kind_[c] = at->second;
   }
   start_step(0.0);
 }
 
-RelaxingGaps::Moment RelaxingGaps::moment_of(const PronyLaw& law, double duration) {
+RelaxingGaps::Moment RelaxingGaps::moment_of(const Kind& kind, double duration) {
+  const PronyLaw& law = *kind.law;
   Moment moment{.elasticity = elasticity_over(law, duration)};
+  if (kind.keeps_ratio) {
+    const IsotropicElasticity at_once = instantaneous_elasticity(law);
+    moment.elasticity.lambda = at_once.lambda * moment.elasticity.mu / at_once.mu;
+  }
   for (const PronyBranch& branch : law.shear) moment.shear.push_back(decay_over(duration / branch.time));
   for (const PronyBranch& branch : law.bulk) moment.bulk.push_back(decay_over(duration / branch.time));
   return moment;
@@ -84,10 +90,10 @@ void RelaxingGaps::start_step(double duration, const CellField<double>& shift) {
   moments_.resize(is_shifted_ ? as_size(kind_.size()) : kinds_.size());
   if (is_shifted_)
     parallel_for(kind_.size(), [&](Index c) {
-      if (has(c)) moments_[c] = moment_of(*kind(c).law, duration / shift[c]);
+      if (has(c)) moments_[c] = moment_of(kind(c), duration / shift[c]);
     });
   else
-    std::ranges::transform(kinds_, moments_.begin(), [&](const Kind& by) { return moment_of(*by.law, duration); });
+    std::ranges::transform(kinds_, moments_.begin(), [&](const Kind& by) { return moment_of(by, duration); });
 }
 
 std::size_t RelaxingGaps::size(Index cell) const {

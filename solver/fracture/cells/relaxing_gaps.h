@@ -7,8 +7,9 @@
 // bears the difference (CellMechanics::volume_changes), relaxes as the shear modulus does. So every term of the
 // discrete body is that of the elastic one with relaxing moduli (correspondence principle): what is stable for all
 // elastic moduli is stable in time. With an elastic K_s, or with both remainders in the pressures, which are
-// extrapolated to the faces, rough modes grew. Bodies in plane stress have none of it at small strain (gaps_relax). At
-// finite strain gaps are turned back with their cell (finite_memory.h).
+// extrapolated to the faces, rough modes grew. In plane stress at small strain gaps meet the shear modulus of the
+// moment and the Poisson's ratio at once: the modulus along a face's normal is not linear in mu, so that the parts of
+// the branches would not add up. At finite strain gaps are turned back with their cell (finite_memory.h).
 //
 // Half the work of traction and gap is part of a cell's energy. Energies here are per volume of the cell [J/m^3].
 
@@ -24,8 +25,8 @@
 
 namespace pfdm {
 
-/// Whether the gaps of a material relax in a body: it does so itself, at small strain not in plane stress
-/// (history_tractions.h), and where its cells need a pressure (relaxes_with_pressure) the body has one.
+/// Whether the gaps of a material relax in a body: it does so itself, and where its cells need a pressure
+/// (relaxes_with_pressure) the body has one.
 bool gaps_relax(const Material& material, const FractureModel& model);
 
 class RelaxingGaps {
@@ -40,7 +41,7 @@ class RelaxingGaps {
   /// `duration` [s]; `shift`: a_T of every cell (temperature_shift.h); empty: 1.
   void start_step(double duration, const CellField<double>& shift = {});
 
-  /// Moduli that a change of strain meets in the step, undamaged.
+  /// Moduli that a change of gaps meets in the step, undamaged.
   const IsotropicElasticity& elasticity(Index cell) const { return moment(cell).elasticity; }
   /// The time in a step of which numbers are.
   enum class At { start, end };
@@ -60,6 +61,7 @@ class RelaxingGaps {
   struct Kind {
     const PronyLaw* law;
     bool has_pressure = false;
+    bool keeps_ratio = false;  // gaps have the Poisson's ratio at once
     // Energies; with a pressure also the two volume changes, and what is left of both in each shear branch.
     std::size_t per_cell() const { return 2 + (has_pressure ? 2 + 2 * law->shear.size() : 0); }
     std::size_t bulk_from() const { return 3 + 3 * law->shear.size(); }  // among the numbers of a face
@@ -70,7 +72,7 @@ class RelaxingGaps {
     std::vector<PronyDecay> shear{}, bulk{};
     IsotropicElasticity elasticity{};
   };
-  static Moment moment_of(const PronyLaw& law, double duration);
+  static Moment moment_of(const Kind& kind, double duration);
   const Kind& kind(Index cell) const { return kinds_[kind_[cell]]; }
   const Moment& moment(Index cell) const { return moments_[is_shifted_ ? cell : kind_[cell]]; }
 

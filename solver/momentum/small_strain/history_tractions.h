@@ -7,8 +7,8 @@
 //   the direction of the strain increment;
 // - by relaxing materials, which are linear, as strains are: a, b and c are of the moduli that a change of strain
 //   meets in the step, and what is left of earlier gaps is an initial traction of the side (history_stress.h). A body
-//   that has relaxed is then the elastic one of the relaxed moduli with the same gradients. Not in plane stress: its
-//   modulus along a face's normal is not linear in mu, so that the parts of the branches do not add up.
+//   that has relaxed is then the elastic one of the relaxed moduli with the same gradients. In plane stress gaps keep
+//   the Poisson's ratio at once: the modulus along a face's normal is not linear in mu.
 //
 // As gaps are borne differences of the gradient on a side from that of its cell: on bonded sides, and where few layers
 // bend, which have gradients along lines of cells, in plane meshes too (layer_gradients.h).

@@ -97,22 +97,28 @@ TEST(BendingByLaws, OfADamagedBeamHasTwoModuli) {
 }
 
 // A force at the end is held. By the correspondence principle the deflection is that of the compliances J of shear and
-// of bending in plane strain, 1/4 J of mu + 3/4 J of 3 K + mu.
+// of bending: in plane strain 1/4 J of mu + 3/4 J of 3 K + mu, in plane stress 1/3 J of mu + 1/(9 K). By gaps that meet
+// the instantaneous moduli for ever it was 4 to 6 % too stiff in plane stress.
 TEST(BendingByLaws, OfAViscoelasticBeamIsThatByTheCorrespondencePrinciple) {
   constexpr double branch = 30e9, tau = 0.5, ramp = 1e-6, duration = 4.0;
   const IsotropicElasticity relaxed = from_young_poisson(E, 0.3);
   const auto compliance = [&](double M, double time) {
     return 1.0 / M - (1.0 / M - 1.0 / (M + branch)) * std::exp(-time * M / ((M + branch) * tau));
   };
-  const auto due = [&](double time) {
-    const double of_shear = compliance(relaxed.mu, time);
-    const double bending = 0.25 * of_shear + 0.75 * compliance(3.0 * relaxed.bulk_modulus() + relaxed.mu, time);
+  const auto due = [&](double time, bool plane_stress) {
+    const double of_shear = compliance(relaxed.mu, time), K = relaxed.bulk_modulus();
+    const double bending = plane_stress ? of_shear / 3.0 + 1.0 / (9.0 * K)
+                                        : 0.25 * of_shear + 0.75 * compliance(3.0 * K + relaxed.mu, time);
     return std::pow(span, 3) / (3.0 * section) * bending + span / (5.0 / 6.0 * height) * of_shear;
   };
-  for (const auto& [along, across] : {std::pair{25, 4}, {12, 4}, {50, 2}}) {
-    const Mesh mesh = mesh_of(along, across);
+  for (const Beam& beam : {Beam{.along = 25, .across = 4},
+                           {.along = 12, .across = 4},
+                           {.along = 50, .across = 2},
+                           {.along = 25, .across = 4, .plane_stress = true},
+                           {.along = 50, .across = 8, .plane_stress = true}}) {
+    const Mesh mesh = mesh_of(beam.along, beam.across);
     const auto material = make_prony({.relaxed = relaxed, .shear = {{branch, tau}}});
-    FractureModel model = beam_model(material->elasticity(), clamped_at_x0(false),
+    FractureModel model = beam_model(material->elasticity(), clamped_at_x0(beam.plane_stress),
                                      moved("xmax", {false, false, false}, [](const Vector&, double t) {
                                        return Vector(0.0, std::min(t / ramp, 1.0) / height, 0.0);
                                      }));
@@ -129,15 +135,19 @@ TEST(BendingByLaws, OfAViscoelasticBeamIsThatByTheCorrespondencePrinciple) {
     double first = 0.0, worst = 0.0, account = 0.0;
     run_to_end(run, [&](const FractureState&, const StepReport& report) {
       if (report.step == 0) return;
-      const double error = due(duration * report.load) / report.patch_displacement[end].y() - 1.0;
+      const double error = due(duration * report.load, beam.plane_stress) / report.patch_displacement[end].y() - 1.0;
       if (report.step == 1) first = error;
       worst = std::max(worst, std::abs(error));
       account = std::max(account, std::abs(left_over({}, report.energy)) / report.energy.external_work);
     });
-    report_row(fmt::format("viscoelastic, {} x {} cells", along, across),
+    report_row(fmt::format("viscoelastic, {} x {} cells{}", beam.along, beam.across,
+                           beam.plane_stress ? ", plane stress" : ""),
                {{"stiffness at once over the beam's, less 1", first}, {"greatest", worst}, {"account", account}});
     EXPECT_LT(worst, 0.03);
-    EXPECT_LT(account, across == 2 ? 0.03 : 0.0125);  // the heat of the bending within each layer is left out
+    EXPECT_LT(account,
+              beam.across == 2
+                  ? 0.03
+                  : (beam.plane_stress ? 0.022 : 0.0125));  // the heat of the bending within each layer is left out
   }
 }
 
