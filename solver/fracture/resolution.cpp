@@ -27,8 +27,8 @@ Index largest_face(const Mesh& mesh, Index cell) {
   return std::ranges::max(mesh.faces_of_cell(cell), {}, [&](Index f) { return mesh.face_area[f].norm(); });
 }
 
-// Extent of a cell across its largest face: of a prism layer its thickness, of a brick its shortest edge, of a
-// tetrahedron a third of its height; of a rounder polyhedron twice the distance of that face.
+// Extent of a cell across its largest face: a prism layer's thickness, a brick's shortest edge, a third of a
+// tetrahedron's height; of a rounder polyhedron twice the distance of that face.
 double thickness(const Mesh& mesh, Index cell) {
   const Index largest = largest_face(mesh, cell);
   const Vector &area = mesh.face_area[largest], to_face = mesh.face_centre[largest] - mesh.cell_centre[cell];

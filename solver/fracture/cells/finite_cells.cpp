@@ -231,28 +231,6 @@ Tensor FiniteCells::thinned(Index cell, const CellMechanics& mechanics, const De
   return free_deformation(cell, mechanics).total(thinned_elastic(cell, mechanics, left));
 }
 
-// The tractions hold a closed crack. The volume of the mean gradient may have the other sign where the strain varies
-// within a cell, and the crack would open and close for ever.
-std::optional<double> FiniteCells::closing_change(Index cell, const CellMechanics& mechanics,
-                                                  const Degraded& left) const {
-  if (!keeps_compression(cell)) return {};
-  const Tensor H = thinned_elastic(cell, mechanics, left), F = Tensor::Identity() + mechanics.gradient[cell];
-  const double change = change_of(cell, mechanics, H);
-  if (has_pressure(cell) || F.determinant() < least_volume) return change;  // or turned inside out
-  const Tensor excess =
-      beside_law(cell, mechanics, parts({cell}, H, change, left.closure), mechanics.stress[cell], left.g);
-  const double K = share_left(left.g, left.closure) * material_[cell]->elasticity().bulk_modulus();
-  return change + contract(excess, F) / (3.0 * K * F.determinant());
-}
-
-// Small changes store K/2 change^2; large ones, of cells that are distorted, would count for more than they store.
-double FiniteCells::closing_energy(Index cell, double change, const Degraded& left) const {
-  constexpr double most = 0.1;
-  const double wrong = std::abs(left.closure - (change < 0.0 ? 1.0 : 0.0)), by = std::min(std::abs(change), most);
-  const double K = wrong * (1.0 - left.g) * material_[cell]->elasticity().bulk_modulus();
-  return 0.5 * K * by * by * mesh_.cell_volume[cell];
-}
-
 void FiniteCells::advance(const CellMechanics& mechanics, const CellField<Degraded>& left, CellHistories& to) {
   if (mechanics.eigenstrain.size() > 0) free_volume_ = CellField<double>(mesh_.n_cells(), 1.0);
   parallel_for(count_of(mechanics.gradients_of_laws), [&](Index k) {

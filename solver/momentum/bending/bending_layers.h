@@ -64,11 +64,6 @@ double poisson_share(double nu);
 /// E/(1 - nu^2) [Pa].
 double plate_modulus(const IsotropicElasticity& of);
 
-/// What a body ends at: a free face, a plane of symmetry, or a face that is held.
-enum class BodyEnd : char { free, mirror, held };
-/// Of the boundary faces; those within the body are free.
-FaceField<BodyEnd> body_ends(const Mesh& mesh, const Unknowns& unknowns);
-
 /// The face of a hexahedron opposite to one of its faces, or a prism's other triangle; else -1.
 Index opposite_face(const Mesh& mesh, Index cell, Index face);
 

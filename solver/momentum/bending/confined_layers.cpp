@@ -3,6 +3,7 @@
 #include "mesh/bounding_box.h"
 #include "mesh/search/line_walk.h"
 #include "solver/momentum/bending/bending_layers.h"
+#include "solver/momentum/bending/body_ends.h"
 #include "solver/momentum/bending/slender_layers.h"
 
 #include <algorithm>

@@ -2,6 +2,7 @@
 
 #include "mesh/bounding_box.h"
 #include "mesh/search/line_walk.h"
+#include "solver/momentum/bending/body_ends.h"
 
 #include <algorithm>
 #include <cmath>

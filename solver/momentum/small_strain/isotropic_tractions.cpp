@@ -80,32 +80,6 @@ Vector IsotropicTractions::initial_traction(Index cell, const Vector& n, std::si
   return varies_eigenstrain() ? of_cell - stress(of_stress_[cell], eigenstrain_change(turn)) * n : of_cell;
 }
 
-void IsotropicTractions::set_coefficients() {
-  parallel_for(count_of(link_values_), [&](Index i) { link_values_[i] = values_of(i); });
-  parallel_for(count_of(side_values_), [&](Index i) { side_values_[i] = values_of_side(i); });
-}
-
-IsotropicTractions::LinkValues IsotropicTractions::values_of(std::size_t i) const {
-  const Link& link = skeleton_.links[i];
-  const IsotropicElasticity &P = moduli_[link.P], &N = moduli_[link.N];
-  const double h_P = link.h_P(), h_N = link.h_N();
-  const double a_n = P.constrained_modulus() / h_P, b_n = N.constrained_modulus() / h_N;
-  const double a_t = P.mu / h_P, b_t = N.mu / h_N;
-  LinkValues by{.weight_n = b_n / (a_n + b_n), .weight_t = b_t / (a_t + b_t)};
-  by.c_n = a_n * by.weight_n;
-  by.c_t = a_t * by.weight_t;
-  by.jump_n = jump_.along_normal(link.P, link.N, moduli_, h_P, h_N, by.c_n);
-  by.jump_t = jump_.along_face(link.P, link.N, by.c_n, by.c_t);
-  if (cells_.relaxes_flat_cells() && !cells_.is_of_third_order(i)) by.jump_t *= jump_.bending_part(link);
-  return by;
-}
-
-IsotropicTractions::SideValues IsotropicTractions::values_of_side(std::size_t i) const {
-  const Side& side = skeleton_.sides[i];
-  const double h = side.h() / stiffer_at(skeleton_.turn_of_side(i));
-  return {.a_n = jump_.modulus(side.cell, moduli_[side.cell]) / h, .a_t = moduli_[side.cell].mu / h};
-}
-
 void IsotropicTractions::reconstruct(const std::vector<Vector>& u, IsotropicSweep& s) const {
   cells_.find_gradients(u, s.gradients);
   if (cells_.cubic().any()) cells_.cubic().read(u, s.gradients, s.cubic);
