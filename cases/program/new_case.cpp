@@ -5,6 +5,7 @@
 #include "cases/program/input/config/toml_document.h"
 #include "cases/program/input/fields/frame_list.h"
 #include "cases/program/kinds.h"
+#include "cases/program/session/page_origin.h"
 #include "postproc/files/atomic_file.h"
 #include "postproc/files/text_file.h"
 
@@ -162,7 +163,7 @@ void make_case(const fs::path& directory, const fs::path& like, std::ostream& ou
   write_file(directory / "case.toml", with_schema_from(text, old.directory, directory));
   out << fmt::format("made {} like {}: case.toml, README.md", directory.string(), old_name);
   for (const auto& [from, place] : data.places) out << ", " << place.string();
-  out << fmt::format("\nedit case.toml, then: pfdm check {}\n", directory.string());
+  out << fmt::format("\nedit case.toml, then: {} check {}\n", called_as(), directory.string());
 }
 
 }  // namespace pfdm

@@ -37,6 +37,7 @@ double InterfaceLaw::initial_shear_stiffness(const InterfaceStrength& at) const 
 }
 
 bool InterfaceLaw::pulls_along_separation() const {
+  if (own_law) return true;  // it has to, where that is required
   return !mixed_mode->is_potential && (mixed_mode->keeps_stiffness || shear_ratio == 1.0);
 }
 

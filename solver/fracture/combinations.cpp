@@ -27,10 +27,11 @@ void require_plain_interfaces(const FractureModel& model, const LoadingSettings&
         "dissipation control (loading.maximum_dissipation) can be combined with cohesive interfaces only where no "
         "region is damageable");
   for (const CohesiveSurface& surface : model.interfaces)
-    if (surface.law.own_law && (loading.controls_dissipation() || model.is_finite_strain()))
-      throw InputError(fmt::format("interface \"{}\": a law of one's own cannot be combined with {}", surface.name,
-                                   model.is_finite_strain() ? "materials of finite strain"
-                                                            : "dissipation control (loading.maximum_dissipation)"));
+    if (surface.law.own_law && loading.controls_dissipation())
+      throw InputError(
+          fmt::format("interface \"{}\": a law of one's own cannot be combined with dissipation control "
+                      "(loading.maximum_dissipation)",
+                      surface.name));
   if (std::ranges::none_of(model.interfaces, [](const CohesiveSurface& s) { return s.law.depends_on_rate(); })) return;
   if (!(loading.duration > 0.0))
     throw InputError(

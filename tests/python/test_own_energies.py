@@ -4,7 +4,7 @@ a closed form; wrong derivatives, and what cannot be combined with them, are ref
 import unittest
 
 from in_process import rows_of
-from own_laws import Elastic, block, three
+from own_laws import Elastic, LinearSoftening, block, three
 from shared import Folder
 
 import numpy
@@ -86,7 +86,8 @@ class Energies(Folder):
     def assert_same(self, ours, theirs, tolerance=1e-6):
         our_rows, their_rows = rows_of(ours), rows_of(theirs)
         self.assertEqual(len(our_rows), len(their_rows))
-        for names in (["force_x_N", "force_y_N"], ["elastic_energy_J", "fracture_energy_J", "external_work_J"]):
+        energies = ["elastic_energy_J", "fracture_energy_J", "external_work_J", "interface_dissipation_J"]
+        for names in (["force_x_N", "force_y_N"], energies):
             a, b = (numpy.array([[row[name] for name in names] for row in rows]) for rows in (our_rows, their_rows))
             self.assertGreater(abs(b).max(), 0.0)
             numpy.testing.assert_allclose(a, b, rtol=0.0, atol=tolerance * abs(b).max(), err_msg=str(names))
@@ -140,6 +141,39 @@ class Energies(Folder):
                 low, high = (width, high) if slopes(length, width)[1] < 0.0 else (low, width)
             self.assertAlmostEqual(row["force_x_N"], 4e-6 * slopes(length, width)[0], delta=1e-6 * row["force_x_N"])
         self.assertEqual(row["load"], 1.0)
+
+    def glued(self, **more):
+        """Two halves that turn while the glue between them opens in mixed mode."""
+        case = self.bent(f"damageable = false\n{neo_hookean}")
+        text = case.file.read_text().replace('toughness = "0.3 kJ/m^2"\n', "").replace('\nlength = "2 mm"\n', """
+[[interface]]
+name = "glue"
+between = ["left", "right"]
+law = "linear"
+strength = "0.1 MPa"
+toughness = "100 J/m^2"
+stiffness = "1e10 Pa/m"
+mixed_mode = "camacho_ortiz"
+shear_ratio = 1.0
+""")
+        case.file.write_text(text)
+        return pfdm.Case(self.folder, more)
+
+    def test_go_with_laws_of_interfaces(self):
+        case = self.glued()
+        ours = pfdm.FractureRun(case, interfaces={"glue": LinearSoftening(1e10)}, materials={"left": NeoHookean()})
+        rows = self.assert_same(ours, pfdm.FractureRun(case))
+        self.assertGreater(rows[-1]["interface_dissipation_J"], 0.0)
+
+    def test_refuse_interfaces_that_would_transfer_a_moment(self):
+        class Across(LinearSoftening):
+            def respond(self, separation, *others):
+                answer = super().respond(separation, *others)
+                return answer._replace(traction=answer.traction * [1.0, 0.5, 0.5])
+
+        run = pfdm.FractureRun(self.glued(), interfaces={"glue": Across(1e10)})
+        with self.assertRaisesRegex(pfdm.InputError, "glue.*an opened interface has to pull along its separation"):
+            rows_of(run)
 
     def test_that_are_not_finite_cut_the_increment(self):
         case = block(self.folder, x="4*t", material=f'{of_E}\nlaw = "neo_hookean"', cells=(2, 1, 1))

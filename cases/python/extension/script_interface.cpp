@@ -2,6 +2,10 @@
 
 #include "cases/python/extension/script_law.h"
 
+#include "physics/error.h"
+
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 
@@ -10,7 +14,8 @@ namespace {
 
 class ScriptInterface final : public OwnInterfaceLaw {
  public:
-  ScriptInterface(const std::string& place, const py::object& law) : law_(place, law, 3 * most_interface_branches) {}
+  ScriptInterface(const std::string& place, const py::object& law, bool is_finite_strain)
+      : place_(place), law_(place, law, 3 * most_interface_branches), is_finite_strain_(is_finite_strain) {}
 
   bool depends_on_rate() const override { return law_.depends_on_rate(); }
 
@@ -36,6 +41,7 @@ class ScriptInterface final : public OwnInterfaceLaw {
       response.stored = answer.number(3, "stored energy");
       response.history.dissipated += answer.number(4, "dissipated energy");
     }
+    if (is_finite_strain_) require_pull_along(parted, traction);
     response.traction = axes * traction;
     response.tangent = axes * tangent * axes.transpose();
     response.secant = axes * secants(parted, traction, tangent).asDiagonal() * axes.transpose();
@@ -49,6 +55,16 @@ class ScriptInterface final : public OwnInterfaceLaw {
     return copy_of(numbers);
   }
 
+  /// Else the two sides, which are apart, would transfer a moment.
+  void require_pull_along(const Vector& parted, const Vector& traction) const {
+    constexpr double rounding = 1e-6;
+    if (parted[0] <= 0.0 || parted.cross(traction).norm() <= rounding * parted.norm() * traction.norm()) return;
+    throw InputError(
+        fmt::format("{}: at finite strain an opened interface has to pull along its separation; for ({:.4g}, {:.4g}, "
+                    "{:.4g}) m respond() returns the traction ({:.4g}, {:.4g}, {:.4g}) Pa",
+                    place_, parted[0], parted[1], parted[2], traction[0], traction[1], traction[2]));
+  }
+
   /// Along the normal and twice across; tangents where nothing has moved.
   static Vector secants(const Vector& parted, const Vector& traction, const Tensor& tangent) {
     const Vector across(0.0, parted[1], parted[2]);
@@ -57,13 +73,16 @@ class ScriptInterface final : public OwnInterfaceLaw {
     return Vector(normal, shear, shear).cwiseMax(0.0);
   }
 
+  std::string place_;
   ScriptLaw law_;
+  bool is_finite_strain_;
 };
 
 }  // namespace
 
-std::shared_ptr<const OwnInterfaceLaw> make_script_interface(const std::string& place, const py::object& law) {
-  return std::make_shared<const ScriptInterface>(place, law);
+std::shared_ptr<const OwnInterfaceLaw> make_script_interface(const std::string& place, const py::object& law,
+                                                             bool is_finite_strain) {
+  return std::make_shared<const ScriptInterface>(place, law, is_finite_strain);
 }
 
 }  // namespace pfdm

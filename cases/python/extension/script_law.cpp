@@ -39,7 +39,7 @@ void put_on_interface(const std::string& name, const py::object& law, FractureMo
         fmt::format("interfaces[\"{}\"]: friction, rate and branches of the case belong to the law that this one takes "
                     "the place of: leave them out",
                     name));
-  known.own_law = make_script_interface(fmt::format("interfaces[\"{}\"]", name), law);
+  known.own_law = make_script_interface(fmt::format("interfaces[\"{}\"]", name), law, model.is_finite_strain());
 }
 
 bool is_hyperelastic(const py::object& law) {

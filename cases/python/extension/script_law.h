@@ -27,7 +27,9 @@ std::string words_of(const ScriptLaws& laws);
 /// Whether this thread is within respond() of such a law.
 bool is_within_script_law();
 
-std::shared_ptr<const OwnInterfaceLaw> make_script_interface(const std::string& place, const py::object& law);
+/// At finite strain what it answers of an opened face has to pull along the separation.
+std::shared_ptr<const OwnInterfaceLaw> make_script_interface(const std::string& place, const py::object& law,
+                                                             bool is_finite_strain);
 std::shared_ptr<const Material> make_script_material(const std::string& place, const py::object& law,
                                                      const IsotropicElasticity& elasticity);
 /// With the strain energy of this law in place of that of `known`, a material of finite strain; its volume energy,

@@ -64,7 +64,7 @@ class HyperelasticResponse(NamedTuple):
 
 
 class OwnInterfaceLaw(ABC):
-    """The law of a cohesive interface, in place of that of an [[interface]] of the case, at small strain. Derive from it:
+    """The law of a cohesive interface, in place of that of an [[interface]] of the case. Derive from it:
 
         class Spring(pfdm.OwnInterfaceLaw):
             def respond(self, separation, history, duration, strength, toughness):
@@ -87,7 +87,9 @@ class OwnInterfaceLaw(ABC):
         """What a face bears, by its arguments alone: a step is computed many times, by several threads in any order.
 
         Contact is the law's own too: it has to resist a negative separation along the normal. All directions across the
-        normal have to be alike. A face counts as debonded from 90 % of its toughness on, that it has dissipated.
+        normal have to be alike. At finite strain an opened face has to pull along its separation, which is that per
+        reference area of two points that were one; the normal turns with the body, and what the history has of directions
+        across it does not. A face counts as debonded from 90 % of its toughness on, that it has dissipated.
         Traction, tangent and energies have to be finite: others end the step with an InputError.
 
         Args:

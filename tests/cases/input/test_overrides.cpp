@@ -81,11 +81,24 @@ void expect_refused_word(const std::string& word, const std::string& message) {
   EXPECT_EQ(std::ranges::count(outcome.err, '\n'), 1) << outcome.err;
 }
 
+TEST(Overrides, ListsTakeThePlaceOfLists) {
+  EXPECT_EQ(with_value("a = [1, \"]\", # ]\n  [2, '[']]  # last\nb = 3\n", "a", "[4, [5]]"),
+            "a = [4, [5]]  # last\nb = 3\n");
+  EXPECT_EQ(with_value("x = [[1], [2]]\n", "x[1]", "[7]"), "x = [[1], [7]]\n");
+  EXPECT_EQ(with_value("x = [\n  [1],\n]\n", "x[0]", "[7]"), "x = [\n  [7],\n]\n");
+  EXPECT_THROW(with_value("[[x]]\ny = 1\n", "x", "[{ y = 2 }]"), InputError);
+  EXPECT_THROW(with_value("  [[x]]\ny = 1\n", "x", "[{ y = 2 }]"), InputError);
+  EXPECT_EQ(value_with({R"(boundary[1].displacement=["1 mm", "free", "free"])"}, "boundary[1].displacement"),
+            R"(["1 mm","free","free",])");
+}
+
 TEST(Overrides, SayWhatIsWrong) {
   expect_refused_word("loading.end", "--set loading.end: expected KEY=VALUE, as in");
   expect_refused_word("=3", "expected KEY=VALUE");
   expect_refused_word("mesh.x[3].cells=3", "--set mesh.x[3].cells: ");
   expect_refused_word("mesh.x=3", "\"mesh.x\" is not a single value");
+  expect_refused_word("boundary=[]", "\"boundary\" is not a single value");
+  expect_refused_word("boundary.patch=xmin", "boundary is a list: name one of its elements, as boundary[0].patch");
   expect_refused_word("fracture.lenght=2 mm", "did you mean \"length\"?");
   expect_refused_word("fracture.length=2 MPa", "case.toml with --set");
   expect_refused_word("materials.concrete.young_modulus=30", "has no unit");

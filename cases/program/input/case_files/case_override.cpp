@@ -94,6 +94,10 @@ std::string with_new_key(const std::string& text, const std::string& key, const 
     } catch (const InputError&) {  // not in this way
     }
   }
+  if (const TomlValue* const list = find_value(parse_toml(text, "case.toml"), table))
+    if (std::holds_alternative<TomlArray>(list->value))
+      throw InputError(
+          fmt::format("--set {0}: {1} is a list: name one of its elements, as {1}[0].{2}", key, table, name));
   throw InputError(fmt::format(
       "--set {0}: the case has no such key, and it cannot be added from outside: write it into the file", key));
 }

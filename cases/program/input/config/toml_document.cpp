@@ -122,6 +122,26 @@ std::size_t length_of_scalar(const std::string& text, std::size_t at) {
   return end_of_string(text, at) - at;
 }
 
+/// How long the list is whose bracket opens at `at`.
+std::size_t length_of_list(const std::string& text, std::size_t at) {
+  int depth = 0;
+  for (std::size_t i = at; i < text.size(); ++i) {
+    if (text[i] == '"' || text[i] == '\'') i = end_of_string(text, i) - 1;
+    if (text[i] == '#') i = std::min(text.find('\n', i), text.size() - 1);
+    if (text[i] == '[') ++depth;
+    if (text[i] == ']' && --depth == 0) return i + 1 - at;
+  }
+  return text.size() - at;
+}
+
+/// Whether a list stands in brackets, not below lines as [[boundary]].
+bool is_in_brackets(const std::string& text, std::size_t at) {
+  const std::size_t line = text.rfind('\n', at) == std::string::npos ? 0 : text.rfind('\n', at) + 1;
+  const bool is_header =
+      text.compare(at, 2, "[[") == 0 && trimmed(std::string_view(text).substr(line, at - line)).empty();
+  return at < text.size() && text[at] == '[' && !is_header;
+}
+
 }  // namespace
 
 const TomlValue& value_at(const TomlValue& root, std::string_view path) {
@@ -138,6 +158,9 @@ const TomlValue& value_at(const TomlValue& root, std::string_view path) {
 std::string with_value(const std::string& text, std::string_view path, const std::string& value) {
   const TomlValue root = parse_toml(text, "case.toml");
   const TomlValue& old = value_at(root, path);
+  const std::size_t at = offset_of(text, old.line, old.column);
+  if (std::holds_alternative<TomlArray>(old.value) && value.starts_with('[') && is_in_brackets(text, at))
+    return std::string(text).replace(at, length_of_list(text, at), value);
   if (std::holds_alternative<TomlArray>(old.value) || std::holds_alternative<TomlTable>(old.value))
     throw InputError(fmt::format("\"{}\" is not a single value", path));
   return with_value(text, old, value);
