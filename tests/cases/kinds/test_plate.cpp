@@ -87,6 +87,36 @@ TEST(Plate, HasAPageWithTheBodyThatVibrates) {
   EXPECT_EQ((*surface)["series"][0]["of_steps"], true);
 }
 
+/// What a browser shows at two phases of the vibration, and at two times.
+constexpr const char* probe = R"(async () => {
+  for (let i = 0; i < 300 && !document.documentElement.dataset.body; ++i) await after(50);
+  const pixels = () => document.querySelector(".scene canvas").toDataURL();
+  const slide = (label, to) => {
+    const slider = document.querySelector(`input[aria-label="${label}"]`);
+    slider.value = to;
+    slider.dispatchEvent(new Event("input"));
+    return pixels();
+  };
+  const first = pixels();
+  const other_phase = slide("phase of the vibration", 12);
+  const again = slide("phase of the vibration", 0);
+  return { body: document.documentElement.dataset.body, phase: other_phase !== first, returns: again === first,
+           time: slide("step", 0) !== first };
+})";
+
+TEST(Plate, VibratesInTheBrowser) {
+  const TemporaryCase directory(small_plate());
+  summary_of(directory);
+  ASSERT_EQ(run({"report", directory.path().string(), "--quiet"}).status, 0);
+  const auto told = told_by_browser(directory.path(), content_of(directory.results() / "report" / "index.html"), probe);
+  if (!told) GTEST_SKIP() << "chromium is not installed";
+  EXPECT_EQ((*told)["body"], "shown");
+  EXPECT_EQ((*told)["phase"], true);
+  EXPECT_EQ((*told)["returns"], true);
+  EXPECT_EQ((*told)["time"], true);
+  EXPECT_TRUE((*told)["errors"].empty()) << (*told)["errors"];
+}
+
 // A modulus that falls lowers the resonance; at the frequency of the cold plate it then takes less power.
 TEST(Plate, SoftensAsItWarms) {
   const TemporaryCase directory(
