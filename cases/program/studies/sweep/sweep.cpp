@@ -45,6 +45,17 @@ bool are_realisations(const SweepSettings& settings) {
                              [&](const CaseParameter& p) { return std::ranges::all_of(p.keys, is_seed); });
 }
 
+/// In ASCII, as all that a terminal gets. `shown`: of mean and standard deviation.
+std::string scatter_line(const ShownColumn& shown, std::size_t n) {
+  std::string unit = shown.unit.empty() ? "" : " " + shown.unit;
+  for (const auto& [sign, plain] :
+       {std::pair("µ", "u"), std::pair("²", "^2"), std::pair("³", "^3"), std::pair("°", "deg")})
+    if (const std::size_t at = unit.find(sign); at != std::string::npos)
+      unit.replace(at, std::string_view(sign).size(), plain);
+  return fmt::format("{}: mean {:.6g}{}, standard deviation {:.3g}{}, of {} realisations", shown.words, shown.values[0],
+                     unit, shown.values[1], unit, n);
+}
+
 /// Of the figures of the realisations that converged, if there are two or more; deviations are those of a sample.
 std::vector<std::string> scatter(const SweepSettings& settings, const CsvTable& table) {
   std::vector<std::string> lines;
@@ -61,8 +72,7 @@ std::vector<std::string> scatter(const SweepSettings& settings, const CsvTable& 
     for (const double value : values) squares += (value - mean) * (value - mean);
     const double deviation = std::sqrt(squares / (n - 1.0));
     if (deviation > rounding * std::abs(mean))
-      lines.push_back(fmt::format("{}: mean {:.6g}, standard deviation {:.3g}, of {} realisations", table.names[j],
-                                  mean, deviation, values.size()));
+      lines.push_back(scatter_line(shown_column(table.names[j], {mean, deviation}), values.size()));
   }
   return lines;
 }
