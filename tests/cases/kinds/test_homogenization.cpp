@@ -192,7 +192,8 @@ TEST(HomogenizationCase, SweepOverSeedsHasMeanAndDeviation) {
   const double deviation =
       std::sqrt((std::pow(E[0] - mean, 2) + std::pow(E[1] - mean, 2) + std::pow(E[2] - mean, 2)) / 2.0);
   EXPECT_GT(deviation, 0.0);
-  const std::string said = fmt::format("young_modulus_Pa: mean {:.6g}, standard deviation {:.3g}", mean, deviation);
+  const std::string said =
+      fmt::format("young modulus: mean {:.6g} MPa, standard deviation {:.3g} MPa", 1e-6 * mean, 1e-6 * deviation);
   EXPECT_THAT(outcome.out, HasSubstr(said));
   EXPECT_THAT(content_of(directory.results() / "sweep.csv"), HasSubstr(said));
 }
