@@ -21,8 +21,8 @@ struct CellBodySettings {
   std::vector<CellFieldShown> fields;
   /// Arrays with the parts of the displacement, which the last frame tells [m]; empty: the body stands still.
   std::string real, imaginary;
-  int component = 2;            ///< direction of the motion
-  Index most_cells = 50000;     ///< as in BodySettings
+  int component = 2;         ///< direction of the motion
+  Index most_cells = 50000;  ///< as in BodySettings
 };
 
 /// Throws InputError for files that are no frames of one run.
