@@ -101,8 +101,8 @@ struct InterfaceResponse {
   Vector overstress_slope = Vector::Zero();  ///< of r by the separation [1/m]: by_overstress times it is in the tangent
 };
 
-/// A law of one's own in place of those above, at small strain. A step that takes no time to the separation of the
-/// history gives the traction again.
+/// A law of one's own in place of those above; at finite strain one that pulls along the separation of an opened face.
+/// A step that takes no time to the separation of the history gives the traction again.
 class OwnInterfaceLaw {
  public:
   OwnInterfaceLaw() = default;
