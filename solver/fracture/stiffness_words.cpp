@@ -1,7 +1,6 @@
 #include "solver/fracture/stiffness_words.h"
 
 #include "physics/quantity_text.h"
-#include "solver/fracture/cells/relaxing_gaps.h"
 #include "solver/fracture/model/relaxing_volume.h"
 #include "solver/momentum/bending/confined_layers.h"
 
@@ -45,26 +44,6 @@ std::optional<std::string> of_volume(const Mesh& mesh, const FractureModel& mode
       "confined the body is too stiff (a bonded disc of hexahedra by 0.5 % at nu = 0.49, by 20 % at 0.4997); compare a "
       "finer mesh, or lower materials.NAME.poisson_ratio",
       mesh.region_names[mesh.region[worst]], most, n_without, why_without(model, model.in_cell(mesh, worst)));
-}
-
-// Warning on materials whose gaps do not relax: they meet the instantaneous moduli, however far the body has relaxed.
-std::optional<std::string> of_relaxation(const Mesh& mesh, const FractureModel& model) {
-  constexpr double usual = 30.0;
-  double most = usual;
-  std::size_t region = model.regions.size();
-  for (std::size_t r = 0; r < model.regions.size(); ++r) {
-    const auto& material = model.regions[r].material;
-    if (!material || material->is_finite_strain() || gaps_relax(*material, model)) continue;
-    const double ratio = material->elasticity().mu / material->relaxed_elasticity().mu;
-    if (ratio > most) most = ratio, region = r;
-  }
-  if (region == model.regions.size()) return std::nullopt;
-  return fmt::format(
-      "region \"{}\": the instantaneous shear modulus is {:.3g} times the relaxed one: where the body has relaxed and "
-      "its strain varies from cell to cell it is too stiff (a thick-walled cylinder of 8 cells by 0.8 % at 21 times, "
-      "by 4 "
-      "% at 101); compare a finer mesh",
-      mesh.region_names[region], most);
 }
 
 // What the layer takes more of for the error to be bearable; with cells at its edges as much shorter.
@@ -123,7 +102,6 @@ std::vector<std::string> stiffness_warnings(const Mesh& mesh, const FractureMode
     add(of_volume(mesh, model, unknowns));
     add(of_confined_layers(mesh, unknowns));
   }
-  add(of_relaxation(mesh, model));
   return warnings;
 }
 

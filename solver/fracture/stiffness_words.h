@@ -10,9 +10,8 @@
 namespace pfdm {
 
 /// A line on the cell that is least compressible, where cells that would have a pressure have none, as with splits
-/// without secant moduli or beside elasticity that depends on the direction. Another line on a material that relaxes
-/// far and whose gaps do not (gaps_relax): they meet the instantaneous moduli. Another on the thin layer of nu from 0.3
-/// on that is held on both faces and more than 3 % too soft (confined_layers.h).
+/// without secant moduli or beside elasticity that depends on the direction. Another line on the thin layer of nu from
+/// 0.3 on that is held on both faces and more than 3 % too soft (confined_layers.h).
 std::vector<std::string> stiffness_warnings(const Mesh& mesh, const FractureModel& model);
 
 }  // namespace pfdm

@@ -47,12 +47,6 @@ void advance_volumes(const std::vector<PronyDecay>& shear, const VolumeChanges& 
 
 }  // namespace
 
-bool gaps_relax(const Material& material, const FractureModel& model) {
-  if (material.relaxing() == nullptr) return false;
-  if (material.is_finite_strain()) return true;
-  return model.is_plane_stress() || model.is_isotropic() || !relaxes_with_pressure(material);
-}
-
 RelaxingGaps::RelaxingGaps(const Mesh& mesh, const CellField<const Material*>& materials, const FractureModel& model)
     : mesh_(mesh) {
   if (materials.size() == 0) return;
@@ -61,7 +55,7 @@ RelaxingGaps::RelaxingGaps(const Mesh& mesh, const CellField<const Material*>& m
   for (Index c = 0; c < materials.size(); ++c) {
     const Material* material = materials[c];
     const auto [at, is_new] = kind_of.try_emplace(material, -1);
-    if (is_new && material != nullptr && gaps_relax(*material, model)) {
+    if (is_new && material != nullptr && material->relaxing() != nullptr) {
       at->second = count_of(kinds_);
       const bool has_pressure = relaxes_with_pressure(*material) && !model.is_plane_stress();
       kinds_.push_back({.law = material->relaxing(),

@@ -25,10 +25,6 @@
 
 namespace pfdm {
 
-/// Whether the gaps of a material relax in a body: it does so itself, and where its cells need a pressure
-/// (relaxes_with_pressure) the body has one.
-bool gaps_relax(const Material& material, const FractureModel& model);
-
 class RelaxingGaps {
  public:
   /// Gaps of cells with these materials; null: elastic; empty: all elastic.

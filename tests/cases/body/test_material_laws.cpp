@@ -113,9 +113,8 @@ TEST(MaterialLaws, ViscoelasticityRefusesWhatItCannotBe) {
   refused("yield_stress = \"2 MPa\"\nshear_branches = " + branch, timed, "none", "yield_stress");
 }
 
-// In plane stress the gaps at the faces of relaxing cells meet the instantaneous moduli: what that makes too stiff is
-// said. Elsewhere they relax, and nearly incompressible cells have a pressure, as plastic ones have.
-TEST(MaterialLaws, HistoriesThatMeshesMakeTooStiffAreWarnedOf) {
+// Gaps at the faces of relaxing cells relax, and nearly incompressible cells have a pressure, as plastic ones have.
+TEST(MaterialLaws, HistoriesAreNotTooStiffAndNotWarnedOf) {
   const std::string prony = "law = \"prony\"\nshear_branches = [{ modulus = \"10 GPa\", time = \"0.1 s\" }]\n";
   const std::string timed = replaced(with_material(prony), "[loading]\n", "[loading]\nduration = \"1 s\"\n");
   const auto said = [](const std::string& text) {
@@ -127,13 +126,6 @@ TEST(MaterialLaws, HistoriesThatMeshesMakeTooStiffAreWarnedOf) {
   EXPECT_THAT(said(timed), ::testing::Not(HasSubstr("nearly incompressible")));
   EXPECT_THAT(said(replaced(timed, "poisson_ratio = 0.2", "poisson_ratio = 0.495")),
               ::testing::Not(HasSubstr("nearly incompressible")));
-  EXPECT_THAT(said(timed), ::testing::Not(HasSubstr("times the relaxed one")));
-  const std::string far = replaced(timed, "\"10 GPa\"", "\"500 GPa\"");
-  EXPECT_THAT(said(far), ::testing::Not(HasSubstr("times the relaxed one")));
-  EXPECT_THAT(said(replaced(far, "poisson_ratio = 0.2", "poisson_ratio = 0.495")),
-              ::testing::Not(HasSubstr("times the relaxed one")));
-  EXPECT_THAT(said(replaced(far, "type = \"plane\"", "type = \"plane_stress\"")),
-              HasSubstr("41 times the relaxed one"));
   EXPECT_THAT(said(replaced(with_material(j2), "poisson_ratio = 0.2", "poisson_ratio = 0.495")),
               ::testing::Not(HasSubstr("nearly incompressible")));
 }
