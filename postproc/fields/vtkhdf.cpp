@@ -136,6 +136,7 @@ class SteppedField {
         vtk_type_(first.GetDataType()),
         data_(group, in_file_, type_of(first), components_ > 1 ? components_ : 0,
               Geometries::chunk(first.GetNumberOfTuples())) {
+    if (in_file_ != name_) data_.describe("name", name_);
     if (vtkInformation& of = *first.GetInformation(); of.Has(vtkDataArray::UNITS_LABEL()) != 0)
       data_.describe("units", of.Get(vtkDataArray::UNITS_LABEL()));
   }

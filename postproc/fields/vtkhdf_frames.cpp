@@ -142,7 +142,8 @@ vtkSmartPointer<vtkDataArray> field_of(const FrameFile& in, const std::string& g
   vtkSmartPointer<vtkDataArray> array = array_of(type);
   array->SetNumberOfComponents(static_cast<int>(in.size_of(data, path)[1]));
   array->SetNumberOfTuples(n);
-  name_array(*array, name, in.attribute(path, "units"));
+  const std::string given = in.attribute(path, "name");
+  name_array(*array, given.empty() ? name : given, in.attribute(path, "units"));
   constexpr std::array<const char*, 6> symmetric{"XX", "YY", "ZZ", "XY", "YZ", "XZ"};
   if (array->GetNumberOfComponents() == static_cast<int>(symmetric.size()))
     for (std::size_t i = 0; i < symmetric.size(); ++i) array->SetComponentName(static_cast<vtkIdType>(i), symmetric[i]);

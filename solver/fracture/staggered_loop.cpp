@@ -162,10 +162,11 @@ struct Staggered::Loop {
   }
 
   // What the stiffness errs by, over what the body stores: its cracks may have taken far more. A body that is unloaded
-  // stores nothing.
+  // stores nothing; one that eigenstrains bend freely may seem to store less than that.
   double unsettled_share(double energy) const {
     constexpr double rounding = 1e-20;
-    return energies.unsettled / std::max({energies.stored, start.energy.stored(), rounding * energy, 1e-300});
+    return energies.unsettled /
+           std::max({std::abs(energies.stored), start.energy.stored(), rounding * std::abs(energy), 1e-300});
   }
 
   void renew_damage() {
@@ -179,7 +180,7 @@ struct Staggered::Loop {
         change < s.settings_.damage_tolerance ||
         (s.settings_.damage_tolerance_l2 > 0.0 && mean_change(answer) < s.settings_.damage_tolerance_l2);
     const double energy = load_scale * load_scale * energies.stored + s.damage_.fracture_energy(answer) + energies.torn;
-    const double energy_change = std::abs(energy - energy_before) / std::max(energy, 1e-300);
+    const double energy_change = std::abs(energy - energy_before) / std::max(std::abs(energy), 1e-300);
     energy_before = energy;
     ++outcome.iterations;
     outcome.rest = {restless, change, energy_change, unsettled_share(energy), s.stiffness_->moving_cracks()};

@@ -64,6 +64,7 @@ std::optional<Body> load_case_body(const std::filesystem::path& results) {
 
 std::vector<std::string> words_of_load_cases() {
   std::vector<std::string> words;
+  words.reserve(component_names.size());
   for (const std::string_view name : component_names)
     words.push_back(fmt::format("Load case {} of six, at 1 % of strain", name));
   return words;

@@ -120,6 +120,7 @@ std::string cooling_text(const PlateCase& c) {
                                                       : fmt::format("{:.3g} W/m^2K", on.coefficient)]
         .push_back(on.patch);
   std::vector<std::string> texts;
+  texts.reserve(patches.size());
   for (const auto& [how, where] : patches) texts.push_back(fmt::format("{}: {}", how, fmt::join(where, ", ")));
   return texts.empty() ? "none" : fmt::format("{}", fmt::join(texts, "; "));
 }

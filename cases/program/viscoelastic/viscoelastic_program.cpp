@@ -73,9 +73,9 @@ CsvTable history_of(const BulkLoading& loading, const PronyLaw& law) {
                                          ? strain_response(creep_compliance(modulus), loading.times, loading.values)
                                          : stress_response(modulus, loading.times, loading.values);
   CsvTable table;
-  table.comments.push_back(loading.deformation == Deformation::shear
-                               ? "shear: engineering shear strain and shear stress"
-                               : "tension: uniaxial stress and its strain");
+  table.comments.emplace_back(loading.deformation == Deformation::shear
+                                  ? "shear: engineering shear strain and shear stress"
+                                  : "tension: uniaxial stress and its strain");
   table.add("time_s", loading.times);
   table.add("strain", loading.is_stress ? answer : loading.values);
   table.add("stress_Pa", loading.is_stress ? loading.values : answer);

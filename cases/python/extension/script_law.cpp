@@ -130,7 +130,8 @@ ScriptLaw::Answer ScriptLaw::answer(const py::object& returned) const {
   return {*this, returned.cast<py::tuple>()};
 }
 
-void ScriptLaw::Answer::read(std::size_t entry, const char* name, std::vector<py::ssize_t> shape, double* to) const {
+void ScriptLaw::Answer::read(std::size_t entry, const char* name, const std::vector<py::ssize_t>& shape,
+                             double* to) const {
   const auto array = ArrayOf<double>::ensure(entries_[entry]);
   if (!array) {
     PyErr_Clear();
@@ -143,7 +144,7 @@ void ScriptLaw::Answer::read(std::size_t entry, const char* name, std::vector<py
   std::copy_n(array.data(), array.size(), to);
 }
 
-void ScriptLaw::Answer::read_finite(std::size_t entry, const char* name, std::vector<py::ssize_t> shape,
+void ScriptLaw::Answer::read_finite(std::size_t entry, const char* name, const std::vector<py::ssize_t>& shape,
                                     double* to) const {
   read(entry, name, shape, to);
   std::size_t size = 1;

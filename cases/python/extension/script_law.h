@@ -66,9 +66,9 @@ class ScriptLaw {
   class Answer {
    public:
     /// Element by element in rows, into an array of this shape. Throws InputError for another shape.
-    void read(std::size_t entry, const char* name, std::vector<py::ssize_t> shape, double* to) const;
+    void read(std::size_t entry, const char* name, const std::vector<py::ssize_t>& shape, double* to) const;
     /// Likewise, and throws InputError for numbers that are not finite.
-    void read_finite(std::size_t entry, const char* name, std::vector<py::ssize_t> shape, double* to) const;
+    void read_finite(std::size_t entry, const char* name, const std::vector<py::ssize_t>& shape, double* to) const;
     /// Finite, too.
     double number(std::size_t entry, const char* name) const;
     /// It may be infinite, or no number.

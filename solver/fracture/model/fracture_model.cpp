@@ -153,6 +153,7 @@ ElasticBody elastic_body(const FractureModel& model) {
     });
     body.zone.push_back(static_cast<Index>(same - model.regions.begin()));
     body.elasticity.push_back(region.elasticity);
+    body.relaxed.push_back(region.material ? region.material->relaxed_elasticity() : region.elasticity);
   }
   for (const CohesiveSurface& surface : model.interfaces)
     body.split_faces.insert(body.split_faces.end(), surface.faces.begin(), surface.faces.end());

@@ -218,9 +218,8 @@ class LayerGradients::Maker {
   void add_bond(Index cell, Index face) {
     constexpr double most_alike = 3.0;
     const Index other = mesh_.across(face, cell), next = walk_.cell_behind(cell, face);
-    const double here = walk_.shear_modulus(cell), there = walk_.shear_modulus(other);
-    const bool are_alike = std::max(here, there) <= most_alike * std::min(here, there);
-    add_side(cell, face, are_alike || next < 0 ? other : next, 1.0, half_slopes(cell, face), Tensor::Identity());
+    const Index of = next < 0 || walk_.are_alike(cell, other, most_alike) ? other : next;
+    add_side(cell, face, of, 1.0, half_slopes(cell, face), Tensor::Identity());
   }
 
   // Slopes towards a face and inwards. The inward one is half-way to a node, but at the node if a component is free.

@@ -5,6 +5,9 @@
 #include "solver/momentum/bending/bending_layers.h"
 #include "solver/momentum/body/unknowns.h"
 
+#include <algorithm>
+#include <array>
+
 namespace pfdm {
 
 class LineWalk {
@@ -42,7 +45,13 @@ class LineWalk {
     return mesh_.is_interior(face) && !unknowns_.is_split(face) && unknowns_.node_of_face[face] >= 0;
   }
 
-  double shear_modulus(Index cell) const { return unknowns_.sound[unknowns_.zone[cell]].mu; }
+  /// Whether the shear moduli of two cells differ by no more than this factor, at once and after any time.
+  bool are_alike(Index cell, Index other, double most) const {
+    return std::ranges::all_of(std::array{&unknowns_.sound, &unknowns_.relaxed}, [&](const auto* moduli) {
+      const double here = (*moduli)[unknowns_.zone[cell]].mu, there = (*moduli)[unknowns_.zone[other]].mu;
+      return std::max(here, there) <= most * std::min(here, there);
+    });
+  }
 
  private:
   const Mesh& mesh_;

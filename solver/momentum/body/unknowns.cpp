@@ -166,6 +166,7 @@ Unknowns place_floating_unknowns(const Mesh& mesh, const ElasticBody& body) {
   unknowns.n_cells = mesh.n_cells();
   unknowns.zone = elastic_zones(mesh, body);
   unknowns.sound = body.elasticity;
+  unknowns.relaxed = body.relaxed.empty() ? body.elasticity : body.relaxed;
   unknowns.loads = body.loads;
   unknowns.conditions = conditions_by_patch(mesh, body);
   unknowns.node_of_face = FaceField<Index>(mesh.n_faces(), -1);

@@ -70,11 +70,12 @@ struct VolumeLaw {
 
 /// Body of the momentum balance.
 struct ElasticBody {
-  std::vector<IsotropicElasticity> elasticity;  ///< of each region of the mesh, undamaged
+  std::vector<IsotropicElasticity> elasticity;  ///< of each region of the mesh, undamaged, at once
   /// First region with the same law, for each region. Faces between different laws carry unknowns.
   std::vector<Index> zone;
-  std::vector<BoundaryCondition> boundary;  ///< patches that are not named are free
-  std::vector<Index> split_faces{};         ///< interior ones, none twice
+  std::vector<BoundaryCondition> boundary;     ///< patches that are not named are free
+  std::vector<IsotropicElasticity> relaxed{};  ///< after any time; empty: that at once
+  std::vector<Index> split_faces{};            ///< interior ones, none twice
   BoxMotion motion{};
   VolumeLoads loads{};
   /// Nearly incompressible cells have a pressure: not where the stress is not that of isotropic moduli.
@@ -96,17 +97,18 @@ struct PeriodicNodes {
 };
 
 struct Unknowns {
-  CellField<Index> zone;                   ///< cells of one law share a zone
-  std::vector<IsotropicElasticity> sound;  ///< elasticity of each zone, undamaged
-  FaceField<Index> node_of_face;           ///< -1 where a face carries no unknown
-  std::vector<Index> face_of_node;         ///< entry k is the face of node n_cells + k
-  std::vector<Index> split_faces{};        ///< node_of_face is that of their owner's side,
-  FaceField<Index> neighbour_node{};       ///< and this that of the neighbour's; -1 elsewhere; empty without any
-  std::vector<PatchCondition> conditions;  ///< one per patch of the mesh, free by default
-  VolumeLoads loads{};                     ///< as the body has them
-  BoxMotion motion{};                      ///< as the body has it, and
-  std::vector<PeriodicNodes> periodic{};   ///< its pairs
-  std::vector<Tensor> free_directions;     ///< per face node: projector onto the displacements that are not prescribed
+  CellField<Index> zone;                     ///< cells of one law share a zone
+  std::vector<IsotropicElasticity> sound;    ///< elasticity of each zone, undamaged, at once
+  std::vector<IsotropicElasticity> relaxed;  ///< and after any time
+  FaceField<Index> node_of_face;             ///< -1 where a face carries no unknown
+  std::vector<Index> face_of_node;           ///< entry k is the face of node n_cells + k
+  std::vector<Index> split_faces{};          ///< node_of_face is that of their owner's side,
+  FaceField<Index> neighbour_node{};         ///< and this that of the neighbour's; -1 elsewhere; empty without any
+  std::vector<PatchCondition> conditions;    ///< one per patch of the mesh, free by default
+  VolumeLoads loads{};                       ///< as the body has them
+  BoxMotion motion{};                        ///< as the body has it, and
+  std::vector<PeriodicNodes> periodic{};     ///< its pairs
+  std::vector<Tensor> free_directions;  ///< per face node: projector onto the displacements that are not prescribed
   /// Across the one cell of plane and axisymmetric meshes; zero in three-dimensional ones.
   Vector plane_normal = Vector::Zero();
   bool plane_stress = false;       ///< across the plane patches; else plane strain

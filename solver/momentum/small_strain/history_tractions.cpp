@@ -168,7 +168,7 @@ void HistoryTractions::add_histories(const FaceMoves& moves, CellMechanics& resu
 void HistoryTractions::add_strain_on_side(Index cell, const Vector& n, std::size_t turn, const Sweep& sweep,
                                           FaceGap& gap) const {
   if (!varies_at(turn)) return;
-  const Tensor beyond = gradient_at(cell, turn, sweep) - sweep.gradients[cell];
+  const Tensor beyond = gradient_at(cell, turn, sweep) - sweep.gradients[cell] - eigenstrain_change(turn);
   const double by_bulk = gaps_[cell].by_bulk, volume = beyond.trace(),
                of_mean = of_stress()[cell].lambda / moduli()[cell].mu;
   const Vector by_shear = beyond * n + beyond.transpose() * n + (by_bulk > 0.0 ? -2.0 / 3.0 : of_mean) * volume * n;
