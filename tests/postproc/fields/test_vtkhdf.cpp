@@ -168,7 +168,7 @@ TEST_F(OneFile, gives_the_frames_back) {
 }
 
 TEST_F(OneFile, is_unpacked_to_the_frames_that_it_was_made_of) {
-  mesh_.region_names = {"a<b> & 'c'"};
+  mesh_.region_names = {"a<b> & 'c'/d|e"};
   write_three();
   const TemporaryFolder other;
   unpack_frames(file_, other / "fields.pvd", Compression::zlib);
@@ -193,7 +193,7 @@ TEST_F(OneFile, that_is_damaged_is_refused) {
 TEST_F(OneFile, has_regions_with_slashes) {
   mesh_.region_names = {"glass/one"};
   write_three();
-  EXPECT_NE(StoredGrid(frame_in_one_file(file_, 0)).grid()->GetFieldData()->GetArray("region_glass|one"), nullptr);
+  EXPECT_NE(StoredGrid(frame_in_one_file(file_, 0)).grid()->GetFieldData()->GetArray("region_glass/one"), nullptr);
 }
 
 TEST_F(OneFile, of_polyhedra_is_refused_and_leaves_none) {
