@@ -2,26 +2,16 @@
 
 #include "mesh/bounding_box.h"
 #include "physics/error.h"
+#include "physics/pseudo_inverse.h"
 #include "postproc/browser/body_part.h"
 #include "postproc/fields/stored_cells.h"
 
 #include <fmt/format.h>
-#include <Eigen/Eigenvalues>
 
 #include <algorithm>
 
 namespace pfdm {
 namespace {
-
-/// Of a symmetric matrix; directions in which there is next to nothing have the inverse 0.
-Tensor pseudo_inverse(const Tensor& matrix) {
-  constexpr double nothing = 1e-9;
-  const Eigen::SelfAdjointEigenSolver<Tensor> of(matrix);
-  Vector inverse = Vector::Zero();
-  for (Eigen::Index i = 0; i < 3; ++i)
-    if (of.eigenvalues()[i] > nothing * of.eigenvalues()[2]) inverse[i] = 1.0 / of.eigenvalues()[i];
-  return of.eigenvectors() * inverse.asDiagonal() * of.eigenvectors().transpose();
-}
 
 /// Each once, without a cell itself.
 std::vector<Index> cells_around(Index cell, const std::vector<Index>& corners,
@@ -79,7 +69,8 @@ std::vector<Vector> displacement_of_points(const std::vector<Vector>& points,
       squares += d * d.transpose();
       differences += (displacement[n] - displacement[c]) * d.transpose();
     }
-    const Tensor gradient = differences * pseudo_inverse(squares);
+    constexpr double nothing = 1e-9;
+    const Tensor gradient = differences * pseudo_inverse(squares, nothing);
     for (const Index p : cells[c])
       moved[p] +=
           (displacement[c] + gradient * (points[p] - centre[c])) / static_cast<double>(cells_of_point[p].size());

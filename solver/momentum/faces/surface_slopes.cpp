@@ -1,27 +1,11 @@
 #include "solver/momentum/faces/surface_slopes.h"
 
-#include <Eigen/Eigenvalues>
+#include "physics/pseudo_inverse.h"
 
 #include <algorithm>
 #include <cmath>
 
 namespace pfdm {
-namespace {
-
-// Its inverse where it has one.
-Tensor pseudo_inverse(const Tensor& moment) {
-  constexpr double least = 1e-3;
-  const Eigen::SelfAdjointEigenSolver<Tensor> eigen(moment);
-  Tensor inverse = Tensor::Zero();
-  for (Index i = 0; i < 3; ++i) {
-    const double value = eigen.eigenvalues()[i];
-    const Vector along = eigen.eigenvectors().col(i);
-    if (value > least * eigen.eigenvalues()[2]) inverse += along * along.transpose() / value;
-  }
-  return inverse;
-}
-
-}  // namespace
 
 SurfaceSlopes::SurfaceSlopes(const Mesh& mesh, const Patch& patch) : mesh_(mesh), faces_of_point_(mesh.points.size()) {
   for (Index f = patch.first_face; f < patch.first_face + patch.n_faces; ++f)
@@ -52,7 +36,8 @@ std::vector<SurfaceSlopes::Sample> SurfaceSlopes::at(Index face, const std::func
     samples.push_back({.face = f, .d = d, .coefficient = weight * along});
     moment += weight * along * along.transpose();
   }
-  const Tensor inverse = pseudo_inverse(moment);
+  constexpr double least = 1e-3;
+  const Tensor inverse = pseudo_inverse(moment, least);
   for (Sample& of : samples) of.coefficient = inverse * of.coefficient;
   return samples;
 }
