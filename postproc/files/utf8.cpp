@@ -20,8 +20,12 @@ std::size_t utf8_length(std::string_view text) {
                         : first == 0xF4U ? 0x8FU
                                          : 0xBFU;
   if (byte(1) < least || byte(1) > most) return 0;
-  const auto continues = [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) == 0x80U; };
-  return std::ranges::all_of(text.substr(2, length - 2), continues) ? length : 0;
+  return std::ranges::all_of(text.substr(2, length - 2), utf8_continues) ? length : 0;
+}
+
+std::size_t utf8_border(std::string_view text, std::size_t at) {
+  while (at > 0 && at < text.size() && utf8_continues(text[at])) --at;
+  return at;
 }
 
 }  // namespace pfdm

@@ -2,6 +2,7 @@
 
 #include "cases/program/input/config/key.h"
 #include "physics/error.h"
+#include "postproc/files/utf8.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -82,9 +83,7 @@ std::string as_text(const TomlValue& value) {
 /// Not within a character of several bytes.
 std::string cut(std::string text) {
   if (text.size() <= longest) return text;
-  std::size_t end = longest;
-  while ((static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U) --end;
-  return text.substr(0, end) + " ...";
+  return text.substr(0, utf8_border(text, longest)) + " ...";
 }
 
 }  // namespace

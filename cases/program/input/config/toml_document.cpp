@@ -3,6 +3,7 @@
 #include "cases/program/input/config/key_depth.h"
 #include "physics/error.h"
 #include "postproc/files/text_file.h"
+#include "postproc/files/utf8.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -109,9 +110,8 @@ const TomlValue& entry_of(const TomlValue& value, std::string_view key, std::str
 std::size_t offset_of(const std::string& text, int line, int column) {
   std::size_t at = 0;
   for (int l = 1; l < line; ++l) at = text.find('\n', at) + 1;
-  const auto continues = [&](std::size_t i) { return (static_cast<unsigned char>(text[i]) & 0xC0U) == 0x80U; };
   for (int c = 1; c < column; ++c)
-    for (++at; at < text.size() && continues(at);) ++at;
+    for (++at; at < text.size() && utf8_continues(text[at]);) ++at;
   return at;
 }
 

@@ -9,8 +9,6 @@
 namespace pfdm {
 namespace {
 
-bool continues(unsigned char byte) { return (byte & 0xC0U) == 0x80U; }
-
 std::string with_shown_bytes(std::string_view message) {
   std::string text;
   while (!message.empty()) {
@@ -27,15 +25,9 @@ std::string with_shown_bytes(std::string_view message) {
   return text;
 }
 
-/// Where no character is cut, at `at` or before.
-std::size_t border(std::string_view text, std::size_t at) {
-  while (at > 0 && at < text.size() && continues(static_cast<unsigned char>(text[at]))) --at;
-  return at;
-}
-
 std::string with_ends_kept(std::string_view text, std::size_t first, std::size_t last) {
-  return fmt::format("{} ... {} ({} bytes)", text.substr(0, border(text, first)),
-                     text.substr(border(text, text.size() - last)), text.size());
+  return fmt::format("{} ... {} ({} bytes)", text.substr(0, utf8_border(text, first)),
+                     text.substr(utf8_border(text, text.size() - last)), text.size());
 }
 
 /// How long words may be, and paths.
@@ -116,8 +108,8 @@ std::string with_short_middle(const std::string& text) {
   const std::size_t last = most / 3, end = text.find(' ', text.size() - last);
   const std::size_t first = text.rfind(' ', most - last - gap.size());
   if (end == std::string::npos || first == std::string::npos)
-    return fmt::format("{}{}{}", text.substr(0, border(text, most - last - gap.size())), gap,
-                       text.substr(border(text, text.size() - last)));
+    return fmt::format("{}{}{}", text.substr(0, utf8_border(text, most - last - gap.size())), gap,
+                       text.substr(utf8_border(text, text.size() - last)));
   return fmt::format("{}{}{}", text.substr(0, first), gap, text.substr(end + 1));
 }
 
