@@ -14,10 +14,11 @@ double CellStiffness::factor(Index cell, double d) const {
   return (1.0 - model_.residual_stiffness) * model_.degradation_of(region).g(d) + model_.residual_stiffness;
 }
 
-CellField<double> CellStiffness::factors(const FractureState& state) const {
+void CellStiffness::set(const FractureState& state, MomentumSolver& momentum) const {
   CellField<double> g(mesh_.n_cells());
   parallel_for(mesh_.n_cells(), [&](Index c) { g[c] = factor(c, seen(c, state)); });
-  return g;
+  momentum.set_eigenstrain(state.step > 0 ? std::optional(state.load) : std::nullopt, state.heat.felt);
+  give(state, g, momentum);
 }
 
 CellField<IsotropicElasticity> CellStiffness::degradable_part(const FractureState&) const {

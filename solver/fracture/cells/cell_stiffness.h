@@ -57,7 +57,7 @@ class CellStiffness {
   bool is_linearised() const { return balance_is() != BalanceIs::linear; }
   virtual bool has_histories() const = 0;
   /// Gives the momentum balance the stiffness that belongs to the damage, closure and tangent strain of the state.
-  virtual void set(const FractureState& state, MomentumSolver& momentum) const = 0;
+  void set(const FractureState& state, MomentumSolver& momentum) const;
   /// The part of the stiffness that damage degrades, by cell; zero where it is not given by isotropic moduli, and where
   /// nothing is degraded.
   virtual CellField<IsotropicElasticity> degradable_part(const FractureState& state) const;
@@ -105,8 +105,8 @@ class CellStiffness {
   double seen(Index cell, const FractureState& state) const {
     return seen_.size() > 0 ? seen_[cell] : state.damage[cell];
   }
-  // g of all cells, by the damage that degrades stiffness.
-  CellField<double> factors(const FractureState& state) const;
+  // The stiffness at these g, by the damage that degrades it.
+  virtual void give(const FractureState& state, const CellField<double>& g, MomentumSolver& momentum) const = 0;
   bool is_damageable(Index cell) const { return model_.in_cell(mesh_, cell).damageable; }
   // Of a damageable cell.
   virtual bool descends(Index cell) const = 0;

@@ -4,9 +4,7 @@
 
 namespace pfdm {
 
-void FiniteStiffness::set(const FractureState& state, MomentumSolver& momentum) const {
-  const CellField<double> g = factors(state);
-  momentum.set_eigenstrain(state.step > 0 ? std::optional(state.load) : std::nullopt, state.heat.felt);
+void FiniteStiffness::give(const FractureState& state, const CellField<double>& g, MomentumSolver& momentum) const {
   const CellField<Mandel>& free = momentum.balance().eigenstrain();
   const auto law = [&](Index c, Index own, const Tensor& H) {
     return cells_.law({c, own}, H, {g[c], state.closure[c]},

@@ -18,7 +18,6 @@ class FiniteStiffness final : public CellStiffness {
 
   BalanceIs balance_is() const override { return BalanceIs::finite; }
   bool has_histories() const override { return cells_.histories().any(); }
-  void set(const FractureState& state, MomentumSolver& momentum) const override;
   double follow(const CellMechanics& mechanics, FractureState& state) override;
   double integrate(const CellMechanics& mechanics, const FractureState& start, FractureState& state) override;
 
@@ -36,6 +35,7 @@ class FiniteStiffness final : public CellStiffness {
                        const Vector& plane_normal) const override;
 
  private:
+  void give(const FractureState& state, const CellField<double>& g, MomentumSolver& momentum) const override;
   Degraded left(Index cell, const FractureState& state) const {
     return {factor(cell, state.damage[cell]), state.closure[cell]};
   }

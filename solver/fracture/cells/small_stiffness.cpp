@@ -16,11 +16,13 @@ SmallStiffness::SmallStiffness(const Mesh& mesh, const FractureModel& model)
   std::map<std::pair<Index, const MandelMatrix*>, std::shared_ptr<const CellLaw>> known;  // these are large
   for (Index c = 0; c < model.cells.size(); ++c) {
     const RegionModel& in_cell = model.cells[c];
-    std::shared_ptr<const CellLaw> law;
-    if (in_cell.stiffness) law = known[{mesh.region[c], in_cell.stiffness.get()}];
+    if (!in_cell.stiffness) {
+      laws_.push_back(make_cell_law(model, in_cell));
+      continue;
+    }
+    std::shared_ptr<const CellLaw>& law = known[{mesh.region[c], in_cell.stiffness.get()}];
     if (!law) law = make_cell_law(model, in_cell);
-    if (in_cell.stiffness) known[{mesh.region[c], in_cell.stiffness.get()}] = law;
-    laws_.push_back(std::move(law));
+    laws_.push_back(law);
   }
 }
 
@@ -29,9 +31,7 @@ void SmallStiffness::start_step(double duration, const CellField<double>& shift)
   CellStiffness::start_step(duration, shift);
 }
 
-void SmallStiffness::set(const FractureState& state, MomentumSolver& momentum) const {
-  const CellField<double> g = factors(state);
-  momentum.set_eigenstrain(state.step > 0 ? std::optional(state.load) : std::nullopt, state.heat.felt);
+void SmallStiffness::give(const FractureState& state, const CellField<double>& g, MomentumSolver& momentum) const {
   if (!is_isotropic_) {
     momentum.set_law(strain_law(g, state.closure), g, state.displacement);
     return;

@@ -25,7 +25,6 @@ class SmallStiffness final : public CellStiffness {
 
   BalanceIs balance_is() const override { return is_isotropic_ ? BalanceIs::linear : BalanceIs::convex; }
   bool has_histories() const override { return materials_.any(); }
-  void set(const FractureState& state, MomentumSolver& momentum) const override;
   CellField<IsotropicElasticity> degradable_part(const FractureState& state) const override;
   double follow(const CellMechanics& mechanics, FractureState& state) override;
   double integrate(const CellMechanics& mechanics, const FractureState& start, FractureState& state) override;
@@ -49,6 +48,7 @@ class SmallStiffness final : public CellStiffness {
   }
 
  private:
+  void give(const FractureState& state, const CellField<double>& g, MomentumSolver& momentum) const override;
   const IsotropicElasticity& elasticity(Index cell) const { return model_.in_cell(mesh_, cell).elasticity; }
   const CellLaw& law(Index cell) const { return *laws_[model_.cells.size() > 0 ? cell : mesh_.region[cell]]; }
   // The law of every cell, with its g and closure.
