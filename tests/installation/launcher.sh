@@ -150,6 +150,11 @@ if ((EUID != 0)); then # root may write anywhere
   chmod +w build
 fi
 
+# The tests compare what the program says, wherever they are begun.
+printf '#!/bin/sh\necho "ctest for ${PFDM_LAUNCHER:-no launcher}"\n' | tool ctest
+said=$(PFDM_LAUNCHER=./other ./pfdm test -R bar 2>/dev/null || true)
+[[ $said == *"for no launcher" ]] || complain "the tests see the launcher: \"$said\""
+
 # What the compiler may use where /proc/cpuinfo shows these flags: $1, of the flags that follow.
 expect_level() {
   local level
