@@ -158,6 +158,10 @@ ElasticBody elastic_body(const FractureModel& model) {
   for (const CohesiveSurface& surface : model.interfaces)
     body.split_faces.insert(body.split_faces.end(), surface.faces.begin(), surface.faces.end());
   body.motion = model.motion;
+  if (model.is_anisotropic())
+    body.stiffness = [of = by_cell(model, &RegionModel::stiffness)](const Mesh& mesh, Index cell) {
+      return of(mesh, cell).get();
+    };
   body.loads = volume_loads(model);
   body.has_pressure = model.is_isotropic();
   body.volume_law = volume_laws(model);

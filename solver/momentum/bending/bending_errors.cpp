@@ -12,6 +12,16 @@ double plate_modulus(const IsotropicElasticity& of) {
   return of.young_modulus() / (1.0 - nu * nu);
 }
 
+DirectedStrip::DirectedStrip(const MandelMatrix& C, const Vector& along, const Vector& across) {
+  Eigen::Matrix<double, 6, 3> strains;
+  strains << to_mandel(along * along.transpose()), to_mandel(across * across.transpose()),
+      to_mandel(symmetric_part(along * across.transpose()));
+  const Tensor within = strains.transpose() * C * strains;
+  modulus = 1.0 / within.inverse()(0, 0);
+  shear_held = within(2, 2);
+  shear_stiffness = shear_held - within(0, 2) * within(0, 2) / within(0, 0);
+}
+
 double poisson_share(double nu) {
   const double at_most = std::clamp(nu, 0.0, 0.45);
   return at_most * at_most / ((1.0 - at_most) * (1.0 - 2.0 * at_most));
@@ -41,8 +51,9 @@ double BendingLayers::error_of_one_ring(double nu, bool is_about_axis) const {
 
 double BendingLayers::excess_of_lines(double nu) const {
   const double at_most = std::min(nu, 0.45);
-  const double longer = std::max(0.0, length / thickness - 1.0);
-  return 0.05 * std::pow(longer, 1.3) * std::sqrt((1.0 - at_most) / (1.0 - 2.0 * at_most));
+  const double by_length = std::pow(std::max(0.0, length / thickness - 1.0), 1.3);
+  if (shear > 0.0) return 0.11 * by_length * std::sqrt(shear);
+  return 0.05 * by_length * std::sqrt((1.0 - at_most) / (1.0 - 2.0 * at_most));
 }
 
 double BendingLayers::excess_of_uneven() const {

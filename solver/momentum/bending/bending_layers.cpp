@@ -1,5 +1,6 @@
 #include "solver/momentum/bending/bending_layers.h"
 
+#include "physics/elasticity/anisotropy.h"
 #include "solver/momentum/bending/body_ends.h"
 
 #include <algorithm>
@@ -20,15 +21,15 @@ bool touch(const Mesh& mesh, Index f, Index g) {
 }
 
 // A line of cells through opposite faces. Ends may be free, planes of symmetry, or neither: held, or beside other
-// cells.
+// cells. Some of these glide: they are held across alone, as planes of symmetry are.
 struct LayerLine {
   double n = 0.0, length = 0.0;
-  int n_mirrors = 0, n_held = 0;
+  int n_mirrors = 0, n_held = 0, n_gliding = 0;
   std::size_t stack = 0;  // of LayerLines, if it has layers
 
   double times() const { return n_mirrors == 1 ? 2.0 : 1.0; }
-  // Cells between the free surfaces on both sides.
-  bool has_layers() const { return n_held == 0 && n_mirrors < 2; }
+  // Cells between the free surfaces on both sides. Nothing bends between two that glide, as in plane strain.
+  bool has_layers() const { return n_held == 0 && n_gliding < 2; }
 };
 
 class LayerLines {
@@ -52,7 +53,33 @@ class LayerLines {
   }
   const std::array<Index, 2>& faces(Index cell, int axis) const { return pairs_[cell][axis].face; }
   const LayerLine& line(Index cell, int axis) const { return lines_[cell][axis]; }
-  const LayerStack& stack(const LayerLine& line) const { return stacks_[line.stack]; }
+  /// Of the layers of a line, as they bend along another axis of one of its cells.
+  const LayerStack& stack(const LayerLine& line, Index cell, int across, int along) {
+    Stack& of = stacks_[line.stack];
+    if (!unknowns_.stiffness) return of.bends;
+    const Vector direction = direction_of(cell, along);
+    if (std::abs(of.along.dot(direction)) < 1.0 - 1e-9) {
+      const Vector normal = direction_of(cell, across);
+      for (StackLayer& layer : of.layers)
+        if (const MandelMatrix* C = unknowns_.stiffness_of(mesh_, layer.cell))
+          layer.modulus = DirectedStrip(*C, direction, normal).modulus;
+      of.bends = layer_stack(of.layers, of.is_mirrored);
+      of.along = direction;
+    }
+    return of.bends;
+  }
+  /// BendingLayers::shear of a cell.
+  double shear(Index cell, int across, int along) const {
+    const MandelMatrix* C = unknowns_.stiffness_of(mesh_, cell);
+    const Vector normal = direction_of(cell, across);
+    if (C == nullptr || is_symmetric_about(*C, normal)) return 0.0;
+    const DirectedStrip strip(*C, direction_of(cell, along), normal);
+    return strip.shear_held / strip.modulus;
+  }
+  Vector direction_of(Index cell, int axis) const {
+    const auto& [from, to] = pairs_[cell][axis].face;
+    return (mesh_.face_centre[to] - mesh_.face_centre[from]).normalized();
+  }
   /// Length of the cells of one zone in the line, twice that where one of its ends is a plane of symmetry [m].
   double zone_length(Index cell, int axis) const {
     double sum = length(cell, axis);
@@ -75,6 +102,14 @@ class LayerLines {
  private:
   using Step = std::pair<Index, int>;
 
+  // The layers across a body. Where the elasticity depends on the direction, `bends` is that along this one.
+  struct Stack {
+    std::vector<StackLayer> layers;
+    bool is_mirrored = false;
+    LayerStack bends{};
+    Vector along = Vector::Zero();
+  };
+
   // Pairs of opposite faces, those within the plane of a plane mesh first; the pair across it is left out.
   std::array<OppositeFaces, 3> pairs_of(Index cell) const {
     std::array<OppositeFaces, 3> pairs;
@@ -94,8 +129,9 @@ class LayerLines {
     bool mirror_is_first = false;
     for (const std::size_t side : {std::size_t{0}, std::size_t{1}}) {
       if (side == 1) std::ranges::reverse(steps);  // from one end of the line to the other
-      const BodyEnd end = follow(cell, pairs_[cell][axis].face[side], steps);
+      const auto [end, glides] = follow(cell, pairs_[cell][axis].face[side], steps);
       line.n_mirrors += end == BodyEnd::mirror ? 1 : 0;
+      line.n_gliding += glides ? 1 : 0;
       line.n_held += end == BodyEnd::held ? 1 : 0;
       if (side == 0) mirror_is_first = end == BodyEnd::mirror;
     }
@@ -106,7 +142,8 @@ class LayerLines {
     if (line.has_layers()) {
       line.stack = stacks_.size();
       if (mirror_is_first) std::ranges::reverse(steps);
-      stacks_.push_back(layer_stack(layers_of(steps), line.n_mirrors == 1));
+      stacks_.push_back({.layers = layers_of(steps), .is_mirrored = line.n_mirrors == 1});
+      stacks_.back().bends = layer_stack(stacks_.back().layers, stacks_.back().is_mirrored);
     }
     for (const auto& [c, a] : steps) lines_[c][a] = line;
   }
@@ -122,19 +159,25 @@ class LayerLines {
     return layers;
   }
 
+  struct LineEnd {
+    BodyEnd end = BodyEnd::held;
+    bool glides = false;
+  };
   // Adds the cells beyond a face.
-  BodyEnd follow(Index cell, Index face, std::vector<Step>& steps) const {
+  LineEnd follow(Index cell, Index face, std::vector<Step>& steps) const {
     const Index first = cell;
     while (mesh_.is_interior(face) && !unknowns_.is_split(face)) {
       cell = mesh_.across(face, cell);
-      if (cell == first) return BodyEnd::held;
+      if (cell == first) return {};
       const int axis = axis_of(cell, face);
-      if (axis < 0) return BodyEnd::held;
+      if (axis < 0) return {};
       steps.emplace_back(cell, axis);
       const auto& ends = pairs_[cell][axis].face;
       face = ends[0] == face ? ends[1] : ends[0];
     }
-    return mesh_.is_interior(face) ? BodyEnd::free : ends_[face];
+    if (mesh_.is_interior(face)) return {.end = BodyEnd::free};
+    const Vector normal = mesh_.face_area[face].normalized();
+    return {.end = ends_[face], .glides = unknowns_.glides(unknowns_.node_of_face[face], normal)};
   }
   int axis_of(Index cell, Index face) const {
     for (int a = 0; a < n_axes(cell); ++a)
@@ -148,7 +191,7 @@ class LayerLines {
   FaceField<BodyEnd> ends_;
   std::vector<std::array<OppositeFaces, 3>> pairs_;
   std::vector<std::array<LayerLine, 3>> lines_;
-  std::vector<LayerStack> stacks_;
+  std::vector<Stack> stacks_;
 };
 
 // Cells in the line of a cell up to faces at which it ends.
@@ -164,7 +207,7 @@ Index count_through(const Mesh& mesh, Index cell, const std::array<Index, 2>& fa
 template <class See>
 void over_layers(const Mesh& mesh, const Unknowns& unknowns, const See& see) {
   if (unknowns.motion.any() || !unknowns.periodic.empty()) return;
-  const LayerLines lines(mesh, unknowns);
+  LayerLines lines(mesh, unknowns);
   for (Index c = 0; c < mesh.n_cells(); ++c)
     for (int across = 0; across < lines.n_axes(c); ++across)
       for (int along = 0; along < lines.n_axes(c); ++along) {
@@ -177,8 +220,11 @@ void over_layers(const Mesh& mesh, const Unknowns& unknowns, const See& see) {
                         .along = lines.faces(c, along),
                         .thickness = thickness,
                         .zone_thickness = lines.zone_length(c, across)},
-            BendingLayers{
-                .n = n, .thickness = thickness, .length = lines.length(c, along), .stack = lines.stack(layers)},
+            BendingLayers{.n = n,
+                          .thickness = thickness,
+                          .length = lines.length(c, along),
+                          .stack = lines.stack(layers, c, across, along),
+                          .shear = lines.shear(c, across, along)},
             unknowns.sound[unknowns.zone[c]].poisson_ratio());
       }
 }

@@ -43,6 +43,7 @@ void LayerGradients::weigh(const CellField<double>& g) {
     const double counts = std::min(counting_[P], counting_[N]);
     weights_[i] = counts * sound_weights_[i] + (1.0 - counts) * Tensor::Identity();
   });
+  curvature_.weigh(counting_);
 }
 
 std::vector<std::size_t> LayerGradients::surface_sides() const {
@@ -85,6 +86,7 @@ void LayerGradients::correct(const std::vector<Vector>& u, CellField<Tensor>& gr
     const Vector slope = at.weight * (at.of_slopes * sum) - change * at.along;
     change += at.across * slope * at.n.transpose() / at.n.dot(at.along);
   });
+  curvature_.add(gradients, changes);
 }
 
 }  // namespace pfdm

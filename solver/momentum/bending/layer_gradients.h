@@ -24,6 +24,9 @@
 //    the thickness of the layer, h that of all and d the distance of the cells' centres: 0.06/n of the stiffness is
 //    left. The others keep theirs; so twisting shears the faces beside free edges in full.
 //
+// 4. Where the elasticity shears the layers under stresses along them, derivatives along the layers vary across them
+//    more than linearly (layer_curvature.h).
+//
 // Linear fields remain exact. Split faces are free surfaces whose node moves.
 //
 // Damage: the lines of a cell count as much as the stiffness factors of the cells on them agree, none if one has less
@@ -32,6 +35,7 @@
 #include "mesh/mesh.h"
 #include "solver/momentum/bending/bending_layers.h"
 #include "solver/momentum/bending/cubic_faces.h"
+#include "solver/momentum/bending/layer_curvature.h"
 #include "solver/momentum/bending/line_weights.h"
 #include "solver/momentum/body/momentum_faces.h"
 #include "solver/parallel.h"
@@ -66,7 +70,7 @@ class LayerGradients {
   /// Whether the jump at a link has a weight of its own.
   bool weighs(std::size_t link) const { return any() && is_weighed_[link] != 0; }
   /// Turns the gradients of one ring of the displacements u into those along the lines. Finds the difference of the
-  /// gradient at a side, by its number, from that of the cell; sides that are no surfaces are left alone.
+  /// gradient at a side, by its number, from that of the cell; sides where there is none are left alone.
   void correct(const std::vector<Vector>& u, CellField<Tensor>& gradients, std::vector<Tensor>& changes) const;
   /// Variation of a field of the cells, as their gradient, along one of a cell's lines: the root of its mean square
   /// over the cell.
@@ -134,6 +138,7 @@ class LayerGradients {
   std::vector<Slope> slopes_;
   std::vector<LineWeights::Change> held_;  // of the lines, over the lengths of their slopes [1/m]
   std::vector<Surface> surfaces_;
+  LayerCurvature curvature_;
   std::vector<Tensor> sound_weights_, weights_;  // per link [-]
   std::vector<std::array<Index, 2>> cells_of_link_;
   CellField<double> counting_;  // weight of each cell's lines, 1 where it has none

@@ -237,6 +237,15 @@ class LayerGradients::Maker {
             .part = part * Tensor::Identity() + (part_of_free - part) * walk_.free_part(opposite)};
   }
 
+  // 1/(1 - nu), or less where the shear stiffness is larger [-].
+  double bending_over_shear(Index cell, const Vector& along, const Vector& across) const {
+    const double isotropic = 1.0 / (1.0 - unknowns_.sound[unknowns_.zone[cell]].poisson_ratio());
+    const MandelMatrix* C = unknowns_.stiffness_of(mesh_, cell);
+    if (C == nullptr) return isotropic;
+    const DirectedStrip strip(*C, along, across);
+    return std::min(isotropic, 0.5 * strip.modulus / strip.shear_stiffness);
+  }
+
   // Each cell of the face by half.
   void weigh_jump(const BendingCell& in, Index face) {
     constexpr double left = 0.04;
@@ -245,9 +254,9 @@ class LayerGradients::Maker {
     const momentum_faces::Link& link = links_[*side / 2];
     const double distance = (link.d_P - link.d_N).dot(link.n);
     const double layer = walk_.length(in.across[0], in.across[1]), all = in.zone_thickness;
-    const double nu = unknowns_.sound[unknowns_.zone[in.cell]].poisson_ratio();
-    const double weight = std::min(1.0, left / (1.0 - nu) * layer * all / (distance * distance));
     const Vector line = mesh_.face_centre[in.across[1]] - mesh_.face_centre[in.across[0]];
+    const double by_shear = left * bending_over_shear(in.cell, link.n, line.normalized());
+    const double weight = std::min(1.0, by_shear * layer * all / (distance * distance));
     const Vector within = (line - line.dot(link.n) * link.n).normalized();
     made_.sound_weights_[*side / 2] -= 0.5 * (1.0 - weight) * within * within.transpose();
     made_.is_weighed_[*side / 2] = 1;
@@ -275,6 +284,7 @@ LayerGradients::LayerGradients(const Mesh& mesh, const Unknowns& unknowns, const
     next = end;
   }
   weights_ = sound_weights_;
+  if (unknowns.stiffness) curvature_ = LayerCurvature(mesh, unknowns, sides, cells, surface_sides());
 }
 
 }  // namespace pfdm

@@ -167,6 +167,7 @@ Unknowns place_floating_unknowns(const Mesh& mesh, const ElasticBody& body) {
   unknowns.zone = elastic_zones(mesh, body);
   unknowns.sound = body.elasticity;
   unknowns.relaxed = body.relaxed.empty() ? body.elasticity : body.relaxed;
+  unknowns.stiffness = body.stiffness;
   unknowns.loads = body.loads;
   unknowns.conditions = conditions_by_patch(mesh, body);
   unknowns.node_of_face = FaceField<Index>(mesh.n_faces(), -1);

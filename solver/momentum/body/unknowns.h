@@ -68,6 +68,9 @@ struct VolumeLaw {
   const IsotropicElasticity& least() const { return most_compressible ? *most_compressible : elasticity; }
 };
 
+/// Elasticity of a cell that depends on the direction [Pa]; null where it does not.
+using DirectedStiffness = std::function<const MandelMatrix*(const Mesh& mesh, Index cell)>;
+
 /// Body of the momentum balance.
 struct ElasticBody {
   std::vector<IsotropicElasticity> elasticity;  ///< of each region of the mesh, undamaged, at once
@@ -75,6 +78,7 @@ struct ElasticBody {
   std::vector<Index> zone;
   std::vector<BoundaryCondition> boundary;     ///< patches that are not named are free
   std::vector<IsotropicElasticity> relaxed{};  ///< after any time; empty: that at once
+  DirectedStiffness stiffness{};               ///< undamaged; empty: isotropic
   std::vector<Index> split_faces{};            ///< interior ones, none twice
   BoxMotion motion{};
   VolumeLoads loads{};
@@ -100,6 +104,7 @@ struct Unknowns {
   CellField<Index> zone;                     ///< cells of one law share a zone
   std::vector<IsotropicElasticity> sound;    ///< elasticity of each zone, undamaged, at once
   std::vector<IsotropicElasticity> relaxed;  ///< and after any time
+  DirectedStiffness stiffness{};             ///< as the body has it
   FaceField<Index> node_of_face;             ///< -1 where a face carries no unknown
   std::vector<Index> face_of_node;           ///< entry k is the face of node n_cells + k
   std::vector<Index> split_faces{};          ///< node_of_face is that of their owner's side,
@@ -118,6 +123,10 @@ struct Unknowns {
   std::vector<Index> pressure_cells;       ///< entry k is the cell of unknown n_nodes() + k
   std::vector<VolumeLaw> pressure_laws{};  ///< of each of them
 
+  /// Elasticity of a cell that depends on the direction [Pa]; null where it does not.
+  const MandelMatrix* stiffness_of(const Mesh& mesh, Index cell) const {
+    return stiffness ? stiffness(mesh, cell) : nullptr;
+  }
   bool is_axisymmetric() const { return radial != Vector::Zero(); }
   Index n_nodes() const { return n_cells + count_of(face_of_node); }
   Vector place(const Mesh& mesh, Index node) const {

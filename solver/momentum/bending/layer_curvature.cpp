@@ -1,0 +1,163 @@
+#include "solver/momentum/bending/layer_curvature.h"
+
+#include "physics/elasticity/anisotropy.h"
+#include "solver/momentum/bending/line_walk.h"
+#include "solver/parallel.h"
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+namespace pfdm {
+
+class LayerCurvature::Maker {
+  using FacePair = std::array<Index, 2>;
+
+ public:
+  Maker(const Mesh& mesh, const Unknowns& unknowns, std::span<const CubicFaces::Side> sides, LayerCurvature& made)
+      : mesh_(mesh), unknowns_(unknowns), walk_(mesh, unknowns), made_(made), sides_of_(mesh.n_cells()) {
+    for (std::size_t k = 0; k < sides.size(); ++k) sides_of_[sides[k].cell].emplace_back(sides[k].face, k);
+  }
+
+  void add(const BendingCell& in) {
+    const MandelMatrix* C = unknowns_.stiffness_of(mesh_, in.cell);
+    if (C == nullptr || is_symmetric_about(*C, mesh_.face_area[in.across[0]].normalized())) return;
+    const std::optional<Second> here = second(in.cell, in.across);
+    if (!here) return;
+    for (const auto& [face, side] : sides_of_[in.cell])
+      if (face != in.across[0] && face != in.across[1])
+        add_cutting(in, face, side, *here);
+      else if (walk_.is_free(face) || unknowns_.is_split(face))
+        add_surface(in.cell, face, side, *here);
+      else if (const Index other = walk_.beyond(in.cell, face).cell; other >= 0)
+        add_between(in.cell, face, side, other, *here);
+  }
+
+ private:
+  // The second derivative across the layers at a cell, from the differences to other cells.
+  struct Second {
+    std::array<Index, 3> others{-1, -1, -1};
+    std::array<double, 3> parts{};  // [1/m^2]
+  };
+
+  double apart(const Vector& a, const Vector& b) const { return (a - b).norm(); }
+  double to_face(Index cell, Index face) const { return apart(mesh_.face_centre[face], mesh_.cell_centre[cell]); }
+  double between(Index a, Index b) const { return apart(mesh_.cell_centre[a], mesh_.cell_centre[b]); }
+
+  // Between the cells beside it; beside a surface the one behind and the next.
+  std::optional<Second> second(Index cell, const FacePair& across) const {
+    const auto next = [&](Index from, Index face) {
+      const Index at = face < 0 ? -1 : walk_.beyond(from, face).cell;
+      return at >= 0 && unknowns_.zone[at] == unknowns_.zone[cell] ? at : -1;
+    };
+    const Index before = next(cell, across[0]), after = next(cell, across[1]);
+    if (before >= 0 && after >= 0) return through(before, -between(before, cell), after, between(after, cell));
+    const Index one = std::max(before, after);
+    if (one < 0) return std::nullopt;
+    const Index two = next(one, opposite_face(mesh_, one, across[before >= 0 ? 0 : 1]));
+    if (two < 0) return std::nullopt;
+    return through(one, between(one, cell), two, between(two, cell));
+  }
+  // Of the parabola through a cell and two others, at the distances x and y [m].
+  static Second through(Index one, double x, Index other, double y) {
+    return {.others = {one, other, -1}, .parts = {2.0 / (x * (x - y)), 2.0 / (y * (y - x)), 0.0}};
+  }
+  // The mean of two cells side by side: four of a line, of which the one cell is no other one.
+  static Second mean_of(Index cell, const Second& here, Index other, const Second& there) {
+    Second mean;
+    const auto put = [&](Index at, double part) {
+      if (at < 0 || at == cell) return;
+      const auto place = std::ranges::find_if(mean.others, [&](Index k) { return k == at || k < 0; });
+      *place = at;
+      mean.parts[as_size(place - mean.others.begin())] += 0.5 * part;
+    };
+    for (std::size_t k = 0; k < 2; ++k) put(here.others[k], here.parts[k]);
+    for (std::size_t k = 0; k < 2; ++k) put(there.others[k], there.parts[k]);
+    put(other, -there.parts[0] - there.parts[1]);
+    return mean;
+  }
+
+  void append(std::size_t side, Index cell, const Second& by, double factor, const Vector& across, const Vector& dual) {
+    Change change{.side = side, .cell = cell, .others = by.others, .parts = by.parts, .across = across, .dual = dual};
+    for (double& part : change.parts) part *= factor;
+    made_.changes_.push_back(change);
+  }
+
+  void add_cutting(const BendingCell& in, Index face, std::size_t side, const Second& here) {
+    if (!mesh_.is_interior(face) && !walk_.is_free(face)) return;
+    const double d = walk_.length(in.across[0], in.across[1]);
+    const Vector line = (mesh_.face_centre[in.across[1]] - mesh_.face_centre[in.across[0]]).normalized();
+    const Vector normal = mesh_.face_area[in.across[0]].normalized();
+    append(side, in.cell, here, d * d / 12.0, line, normal / normal.dot(line));
+  }
+
+  // What the linear extrapolation lacks.
+  void add_surface(Index cell, Index face, std::size_t side, const Second& here) {
+    const Vector n = mesh_.face_area[face].normalized();
+    const double to = to_face(cell, face), back = between(cell, walk_.cell_behind(cell, face));
+    append(side, cell, here, 0.5 * to * (to + back), n, n);
+  }
+
+  void add_between(Index cell, Index face, std::size_t side, Index other, const Second& here) {
+    const Index far = opposite_face(mesh_, other, face);
+    const std::optional<Second> there = far < 0 ? std::nullopt : second(other, {face, far});
+    if (!there) return;
+    const Vector n = mesh_.face_area[face].normalized();
+    const double a = to_face(cell, face), b = to_face(other, face), d = a + b;
+    append(side, cell, mean_of(cell, here, other, *there), d * d / 24.0 - 0.5 * a * b, n, n);
+  }
+
+  const Mesh& mesh_;
+  const Unknowns& unknowns_;
+  LineWalk walk_;
+  LayerCurvature& made_;
+  std::vector<std::vector<std::pair<Index, std::size_t>>> sides_of_;
+};
+
+LayerCurvature::LayerCurvature(const Mesh& mesh, const Unknowns& unknowns, std::span<const CubicFaces::Side> sides,
+                               const std::vector<BendingCell>& cells, std::span<const std::size_t> surfaces) {
+  Maker maker(mesh, unknowns, sides, *this);
+  for (auto next = cells.begin(); next != cells.end();) {
+    const auto end = std::find_if(next, cells.end(), [&](const BendingCell& in) { return in.cell != next->cell; });
+    maker.add(*std::ranges::min_element(next, end, {}, &BendingCell::thickness));
+    next = end;
+  }
+  std::ranges::stable_sort(changes_, {}, &Change::side);
+  std::vector<char> is_surface(sides.size(), 0);
+  for (const std::size_t side : surfaces) is_surface[side] = 1;
+  for (std::size_t k = 0; k < changes_.size(); ++k) {
+    const std::size_t side = changes_[k].side;
+    if (k == 0 || side != changes_[k - 1].side)
+      sides_.push_back({.side = side, .first = k, .end = k, .has_other = is_surface[side] != 0});
+    ++sides_.back().end;
+  }
+}
+
+void LayerCurvature::weigh(const CellField<double>& counts) {
+  parallel_for(count_of(changes_), [&](Index i) {
+    Change& at = changes_[i];
+    at.weight = counts[at.cell];
+    for (const Index other : at.others)
+      if (other >= 0) at.weight = std::min(at.weight, counts[other]);
+  });
+}
+
+void LayerCurvature::add(const CellField<Tensor>& gradients, std::vector<Tensor>& changes) const {
+  parallel_for(count_of(sides_), [&](Index i) {
+    const OfSide& on = sides_[i];
+    Tensor all = Tensor::Zero();
+    for (std::size_t c = on.first; c < on.end; ++c) {
+      const Change& at = changes_[c];
+      Tensor sum = Tensor::Zero();
+      for (std::size_t k = 0; k < at.others.size(); ++k)
+        if (at.others[k] >= 0) sum += at.parts[k] * (gradients[at.others[k]] - gradients[at.cell]);
+      all += at.weight * (sum - sum * at.across * at.dual.transpose());
+    }
+    if (on.has_other)
+      changes[on.side] += all;
+    else
+      changes[on.side] = all;
+  });
+}
+
+}  // namespace pfdm
