@@ -29,7 +29,7 @@ elif os.path.exists(one_file):
     run = VTKHDFReader(registrationName="run", FileName=one_file)
 else:
     sys.exit(f"{frames} does not exist: ./pfdm run cases/glass_bead_quick makes it")
-times = list(run.TimestepValues)
+times = list(run.TimestepValues) or [0.0]  # the reader of VTKHDF gives none of a single frame
 scene = GetAnimationScene()
 scene.UpdateAnimationUsingDataTimeSteps()
 run.UpdatePipeline(times[-1])

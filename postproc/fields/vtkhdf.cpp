@@ -120,9 +120,10 @@ class Geometries {
   std::vector<std::int64_t> part_, first_point_, first_cell_, first_corner_;  // of each step
 };
 
-/// In names of HDF5 "/" parts groups.
-std::string without_slashes(std::string name) {
+/// A name that the group does not have yet, without "/", which parts groups in names of HDF5.
+std::string new_name_in(hid_t group, std::string name) {
   std::ranges::replace(name, '/', '|');
+  while (H5Lexists(group, name.c_str(), H5P_DEFAULT) > 0) name += '|';
   return name;
 }
 
@@ -131,7 +132,7 @@ class SteppedField {
  public:
   SteppedField(hid_t group, vtkDataArray& first)
       : name_(first.GetName()),
-        in_file_(without_slashes(name_)),
+        in_file_(new_name_in(group, name_)),
         components_(first.GetNumberOfComponents()),
         vtk_type_(first.GetDataType()),
         data_(group, in_file_, type_of(first), components_ > 1 ? components_ : 0,

@@ -160,8 +160,9 @@ class Runs(Folder):
             import h5py  # noqa: F401
         except ImportError:
             self.skipTest("without h5py")
-        apart = bar(**{"output.frames_every": 2}).run(self.folder / "apart").frames
-        run = bar(**{"output.frames_every": 2, "output.format": "vtkhdf"}).run(self.folder / "one")
+        values = {"output.frames_every": 2, "mesh.region": "bar/1", "materials.concrete.regions": ["bar/1", "weak"]}
+        apart = bar(**values).run(self.folder / "apart").frames
+        run = bar(**values, **{"output.format": "vtkhdf"}).run(self.folder / "one")
         self.assertFalse((run.folder / "fields.pvd").exists())
         self.assertEqual([(one.step, one.time) for one in run.frames], [(one.step, one.time) for one in apart])
         for one, other in zip(run.frames, apart, strict=True):
@@ -174,6 +175,7 @@ class Runs(Folder):
                     numpy.testing.assert_array_equal(of_one[name], values)
             self.assertEqual(one.grid.units["stress"], "Pa")
             self.assertEqual(one.grid.regions(), other.grid.regions())
+            self.assertIn("bar/1", one.grid.regions())
 
     def test_have_the_cells_that_meshio_reads(self):
         try:

@@ -45,6 +45,12 @@ def read_frame(path: Path, number: int) -> Grid:
             raise ValueError(f"{path}: pfdm has not written it: {error}") from None
 
 
+def _text(data: Any, name: str) -> str:
+    """The text of an attribute; empty without it."""
+    text = data.attrs.get(name, "")
+    return text.decode() if isinstance(text, bytes) else str(text)
+
+
 def _frame(root: Any, k: int, path: Path) -> Grid:
     steps = root["Steps"]
     part = steps["PartOffsets"][k]
@@ -57,12 +63,12 @@ def _frame(root: Any, k: int, path: Path) -> Grid:
 
     def arrays(group: str, n: int) -> dict[str, numpy.ndarray]:
         found = {}
-        for name, data in root[group].items() if group in root else ():
-            first = int(steps[f"{group}Offsets"][name][k])
+        for in_file, data in root[group].items() if group in root else ():
+            first = int(steps[f"{group}Offsets"][in_file][k])
+            name = _text(data, "name") or in_file  # names of HDF5 have no "/"
             found[name] = data[first: first + n]
-            if "units" in data.attrs:
-                unit = data.attrs["units"]
-                units[name] = unit.decode() if isinstance(unit, bytes) else str(unit)
+            if unit := _text(data, "units"):
+                units[name] = unit
         return found
 
     return Grid(points=root["Points"][first_point: first_point + n_points],

@@ -196,6 +196,13 @@ TEST_F(OneFile, has_regions_with_slashes) {
   EXPECT_NE(StoredGrid(frame_in_one_file(file_, 0)).grid()->GetFieldData()->GetArray("region_glass/one"), nullptr);
 }
 
+TEST_F(OneFile, keeps_regions_apart_whose_names_differ_in_slashes) {
+  mesh_.region_names = {"a/b", "a|b", "a/b|", "a|b/"};
+  write_three();
+  for (std::size_t k = 0; k < 3; ++k)
+    expect_same(*read_back(folder_ / series_.frames()[k].file), *StoredGrid(frame_in_one_file(file_, k)).grid());
+}
+
 TEST_F(OneFile, of_polyhedra_is_refused_and_leaves_none) {
   mesh_ = mesh_of_all_shapes();
   try {
