@@ -50,6 +50,7 @@ int main(int argc, char** argv) {
     return 1;
   }
   outlive_readers();
+  pfdm::end_with_parent();
   const bool terminal = isatty(STDOUT_FILENO) == 1;
   const int status = with_files_flushed(pfdm::run_program({argv + 1, argv + argc}, std::cout, std::cerr, terminal));
   for (const int signal : {SIGINT, SIGTERM})

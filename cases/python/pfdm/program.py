@@ -50,14 +50,16 @@ def call(words: list[str], on_step: Callable[[Step], object] | None = None) -> s
     after its present iteration, as by Ctrl-C. What it raises ends the run likewise, and is raised here.
 
     Raises InputError for status 2, ComputationError for status 1, KeyboardInterrupt for Ctrl-C once the program has
-    ended in order.
+    ended in order. If the script is killed, or its terminal closed, the program ends likewise.
     """
     with tempfile.TemporaryFile("w+", errors="replace") as out, tempfile.TemporaryFile("w+", errors="replace") as err:
         reading, writing = os.pipe() if on_step else (-1, -1)
         if on_step:
             words = [*words, "--curve-to", f"/dev/fd/{writing}"]
-        # A session of its own: Ctrl-C in a terminal comes to the script alone, which passes it on.
+        # A session of its own: Ctrl-C in a terminal comes to the script alone, which passes it on. PFDM_PARENT: the
+        # program ends with this process.
         process = subprocess.Popen([program(), *words], stdin=subprocess.DEVNULL, stdout=out, stderr=err,
+                                   env={**os.environ, "PFDM_PARENT": str(os.getpid())},
                                    pass_fds=(writing,) if on_step else (), start_new_session=True)
         _running[threading.get_ident()] = process
         stopped = False

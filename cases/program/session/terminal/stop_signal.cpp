@@ -1,11 +1,15 @@
 #include "cases/program/session/terminal/stop_signal.h"
 
+#include "postproc/files/text_file.h"
+
+#include <sys/prctl.h>
 #include <unistd.h>
 
 #include <array>
 #include <atomic>
 #include <cerrno>
 #include <csignal>
+#include <cstdlib>
 #include <utility>
 
 namespace pfdm {
@@ -76,6 +80,16 @@ LooksForStop::~LooksForStop() { --n_looking; }
 
 void stop_if_asked() {
   if (const int signal = asked.load()) throw Interrupted(signal, "interrupted");
+}
+
+void end_with_parent() {
+  constexpr const char* name = "PFDM_PARENT";
+  const char* number = std::getenv(name);
+  const auto parent = number == nullptr ? std::nullopt : parse_int(number);
+  ::unsetenv(name);
+  if (!parent || ::getppid() != *parent) return;  // started by something between them, which may be left alone
+  ::prctl(PR_SET_PDEATHSIG, SIGTERM);
+  if (::getppid() != *parent) end_by_signal(SIGTERM);  // it ended before that was asked for
 }
 
 void leave_stop_signals() {

@@ -41,6 +41,11 @@ class LooksForStop {
 /// Throws Interrupted if a signal has come since the StopSignals were made.
 void stop_if_asked();
 
+/// Lets this process end as by SIGTERM when the one ends that started it, where that is the process whose number is in
+/// the environment as PFDM_PARENT: a script that is killed leaves no run behind. The name goes from the environment, as
+/// it is not of the programs that this one starts.
+void end_with_parent();
+
 /// In a new process: signals do what they did before the StopSignals were made.
 void leave_stop_signals();
 
