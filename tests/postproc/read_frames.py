@@ -1,8 +1,9 @@
 """Prints what meshio or ParaView reads of the last frame: TOOL is meshio (with python3) or paraview (with pvpython).
 
-    read_frames.py TOOL fields.pvd
+    read_frames.py TOOL FILE
 
-Ends with 77 where the tool is not installed.
+FILE is fields.pvd, for ParaView also fields.vtkhdf. Ends with 77 where the tool is not installed, with 78 where it is too
+old for the file.
 """
 
 import pathlib
@@ -20,9 +21,12 @@ def read_with_meshio(pvd):
     return len(mesh.points), damage, float(mesh.field_data["TimeValue"][0]), regions, height.min(), height.max()
 
 
-def read_with_paraview(pvd):
+def read_with_paraview(file):
     from paraview import servermanager, simple
-    reader = simple.PVDReader(FileName=str(pvd))
+    if file.suffix == ".vtkhdf" and simple.GetParaViewVersion() < (5, 12):
+        print(f"ParaView {simple.GetParaViewVersion()} knows no steps in {file.name}")
+        sys.exit(78)
+    reader = (simple.VTKHDFReader if file.suffix == ".vtkhdf" else simple.PVDReader)(FileName=str(file))
     time = reader.TimestepValues[-1]
     reader.UpdatePipeline(time)
     warp = simple.WarpByVector(Input=reader)  # the vectors that it takes by itself

@@ -5,6 +5,7 @@
 #include "postproc/fields/frame.h"
 #include "postproc/fields/point_displacement.h"
 #include "postproc/fields/pvd.h"
+#include "postproc/fields/vtkhdf.h"
 #include "tests/postproc/opened_fields.h"
 #include "tests/postproc/pixels.h"
 #include "tests/postproc/temporary_folder.h"
@@ -48,21 +49,35 @@ Mesh layered_bead() {
   return make_particles_in_box(settings);
 }
 
-void expect_opens(const std::string& interpreter, const std::string& tool, const Mesh& mesh) {
-  const TemporaryFolder folder;
-  const OutputFields output = opened_fields(mesh, Vector::UnitZ(), 0.3, Vector::UnitZ());
+/// A frame of the mesh as a tool prints it: the sound one or, at time 0.5, the opened one.
+void add_frame(PvdSeries& series, const Mesh& mesh, const std::filesystem::path& folder, double time) {
+  const bool is_open = time == 0.5;
+  const OutputFields output = is_open ? opened_fields(mesh, Vector::UnitZ(), 0.3, Vector::UnitZ()) : sound_fields(mesh);
   const SplitPoints points = point_displacement(mesh, {}, output, 1.0);
-  VtuWriter(mesh).write(folder / "a.vtu", frame_fields(mesh, output), 0.5, &points);
-  PvdSeries(folder / "fields.pvd").add(0.5, "a.vtu");
-  const Said said = run(fmt::format("{} {}/read_frames.py {} {}", interpreter, PFDM_TEST_SCRIPTS, tool,
-                                    (folder / "fields.pvd").string()));
+  const std::string file = is_open ? "open.vtu" : "sound.vtu";
+  VtuWriter(mesh).write(folder / file, frame_fields(mesh, output), time, &points);
+  series.add(time, file);
+}
+
+/// Opens the file in the tool, where its last frame is the opened one.
+void expect_opens(const std::string& interpreter, const std::string& tool, const Mesh& mesh,
+                  const std::filesystem::path& file) {
+  const Said said = run(fmt::format("{} {}/read_frames.py {} {}", interpreter, PFDM_TEST_SCRIPTS, tool, file.string()));
   if (said.status == 77 || said.status == 127) GTEST_SKIP() << tool << " is not installed";
+  if (said.status == 78) GTEST_SKIP() << said.text;
   ASSERT_EQ(said.status, 0) << said.text;
   double damage = 0.0;
-  for (const double d : output.damage) damage += d;
+  for (const double d : opened_fields(mesh, Vector::UnitZ(), 0.3, Vector::UnitZ()).damage) damage += d;
   EXPECT_THAT(said.text, HasSubstr(fmt::format("{} cells, damage {:g}, time 0.5, region_bead region_interface "
                                                "region_matrix, warped from -2 to 3",
                                                mesh.n_cells(), damage)));
+}
+
+void expect_opens(const std::string& interpreter, const std::string& tool, const Mesh& mesh) {
+  const TemporaryFolder folder;
+  PvdSeries series(folder / "fields.pvd");
+  add_frame(series, mesh, folder.path(), 0.5);
+  expect_opens(interpreter, tool, mesh, folder / "fields.pvd");
 }
 
 TEST(FramesInTools, meshio_reads_tetrahedra_and_prisms) { expect_opens("/usr/bin/python3", "meshio", layered_bead()); }
@@ -73,14 +88,20 @@ TEST(FramesInTools, paraview_warps_polyhedra) {
   expect_opens("pvpython", "paraview", barycentric_dual(layered_bead()));
 }
 
+TEST(FramesInTools, paraview_reads_frames_in_one_file) {
+  const TemporaryFolder folder;
+  const Mesh mesh = layered_bead();
+  PvdSeries series(folder / "fields.pvd");
+  for (const double time : {0.25, 0.5}) add_frame(series, mesh, folder.path(), time);
+  write_vtkhdf(folder / "fields.pvd", folder / "fields.vtkhdf");
+  expect_opens("pvpython", "paraview", mesh, folder / "fields.vtkhdf");
+}
+
 // The state of the shipped bead, with another bead.
 TEST(FramesInTools, paraview_draws_the_state_of_the_bead) {
   const TemporaryFolder folder;
-  const Mesh mesh = layered_bead();
-  const OutputFields output = opened_fields(mesh, Vector::UnitZ(), 0.3, Vector::UnitZ());
-  const SplitPoints points = point_displacement(mesh, {}, output, 1.0);
-  VtuWriter(mesh).write(folder / "a.vtu", frame_fields(mesh, output), 0.5, &points);
-  PvdSeries(folder / "fields.pvd").add(0.5, "a.vtu");
+  PvdSeries series(folder / "fields.pvd");
+  add_frame(series, layered_bead(), folder.path(), 0.5);
   const std::filesystem::path picture = folder / "bead.png";
   const Said said =
       run(fmt::format("pvpython --force-offscreen-rendering {}/../../cases/glass_bead_quick/paraview_state.py {} {}",
