@@ -1,4 +1,5 @@
-#include "cases/program/input/config/config.h"
+#include "cases/program/input/config/config_value.h"
+
 #include "cases/program/input/config/config_source.h"
 #include "cases/program/input/config/result_number.h"
 
