@@ -10,6 +10,7 @@
 #include "solver/linear/dense_algebra.h"
 #include "solver/parallel.h"
 #include "solver/vibration/identification/identification_stiffness.h"
+#include "solver/vibration/identification/identification_ten_steps.h"
 #include "solver/vibration/signals/impulse_response.h"
 #include "solver/vibration/simulation/vibration_excitation.h"
 #include "tests/solver/mass_material_truth.h"
@@ -71,7 +72,7 @@ void ten_steps(int seeds) {
       for (const auto& [m1, m] : {std::pair(40, 10), std::pair(10, 4), std::pair(10, 2)})
         fmt::print(
             " ten steps {} to {} {:.2g},", m1, m,
-            error(regress_ten_steps(std::span(&record, 1), model_structure("linear_4b"), m, settings, m1).model));
+            error(ten_steps(std::span(&record, 1), model_structure("linear_4b"), m, settings, m1).regression.model));
       fmt::print(" maximum likelihood {:.2g}\n", error(identify_stiffness(std::span(&record, 1), settings).fit.model));
       std::fflush(stdout);
     }

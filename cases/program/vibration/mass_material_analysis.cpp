@@ -4,7 +4,7 @@
 #include "postproc/files/folder_lock.h"
 #include "postproc/records/signal_table.h"
 #include "postproc/vibration/analysis_json.h"
-#include "solver/vibration/identification/identification.h"
+#include "solver/vibration/identification/identification_responses.h"
 #include "solver/vibration/signals/signals_filter.h"
 
 #include <fmt/chrono.h>

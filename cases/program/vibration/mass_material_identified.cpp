@@ -5,6 +5,7 @@
 #include "solver/vibration/diagnosis/identification_changes.h"
 #include "solver/vibration/diagnosis/identification_faults.h"
 #include "solver/vibration/identification/identification_evidence.h"
+#include "solver/vibration/identification/identification_responses.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -3,6 +3,7 @@
 #include "cases/program/session/fit_verdict.h"
 #include "cases/program/session/report_parts.h"
 #include "cases/program/vibration/vibration_charts.h"
+#include "solver/vibration/identification/identification_responses.h"
 
 #include <fmt/format.h>
 

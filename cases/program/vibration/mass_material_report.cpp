@@ -6,7 +6,8 @@
 #include "cases/program/vibration/vibration_charts.h"
 #include "postproc/fits/fit_json.h"
 #include "postproc/vibration/vibration_fit.h"
-#include "solver/vibration/identification/identification.h"
+#include "solver/vibration/identification/identification_responses.h"
+#include "solver/vibration/identification/identification_values.h"
 
 #include <fmt/format.h>
 

@@ -5,7 +5,7 @@
 #include "cases/program/vibration/mass_material_analysis.h"
 #include "cases/program/vibration/vibration_charts.h"
 #include "postproc/vibration/analysis_json.h"
-#include "solver/vibration/identification/identification.h"
+#include "solver/vibration/identification/identification_responses.h"
 #include "solver/vibration/signals/signals_filter.h"
 
 #include <fmt/format.h>

@@ -10,8 +10,6 @@
 
 #include <algorithm>
 #include <functional>
-#include <limits>
-#include <numbers>
 #include <utility>
 #include <vector>
 
@@ -215,23 +213,6 @@ void say_starts(std::span<const VibrationRecord> records, const IdentificationSe
 }
 
 }  // namespace
-
-ExcitedRange excited_range(std::span<const VibrationRecord> records) {
-  ExcitedRange range{.low = std::numeric_limits<double>::infinity(), .high = 0.0, .velocity = 0.0, .displacement = 0.0};
-  for (const VibrationRecord& r : records) {
-    range.low = std::min(range.low, r.band_low);
-    range.high = std::max(range.high, r.band_high);
-    const PeakMotion peak = peak_motion(r);
-    range.velocity = std::max(range.velocity, peak.velocity);
-    range.displacement = std::max(range.displacement, peak.displacement);
-  }
-  return range;
-}
-
-Passivity passivity_in_band(const MassMaterial& model, std::span<const VibrationRecord> records) {
-  const auto [low, high, velocity, displacement] = excited_range(records);
-  return passivity(model, 2.0 * std::numbers::pi * low, 2.0 * std::numbers::pi * high, velocity);
-}
 
 Identification identify(std::span<const VibrationRecord> records, const ModelStructure& structure,
                         const IdentificationSettings& settings) {

@@ -2,7 +2,7 @@
 // Where a kernel with one more term starts: the equation of motion by least squares in the frequency domain, over a
 // grid of the new term's rates.
 
-#include "solver/vibration/identification/identification.h"
+#include "solver/vibration/identification/identification_values.h"
 
 #include <optional>
 #include <span>

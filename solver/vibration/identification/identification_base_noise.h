@@ -4,7 +4,6 @@
 // its level is estimated from the residuals, in which it has passed the resonance, and its effect on the estimates
 // taken back to first order (bias-compensated least squares: Stoica, Soderstrom, Int. J. Control 36 (1982) 1019).
 
-#include "solver/vibration/identification/identification.h"
 #include "solver/vibration/identification/identification_coordinates.h"
 
 #include <Eigen/Core>

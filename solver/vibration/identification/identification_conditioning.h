@@ -4,7 +4,7 @@
 // before: powers of a filtered signal are not the filtered powers. And the linear systems that regressions make of
 // them.
 
-#include "solver/vibration/identification/identification.h"
+#include "solver/vibration/identification/identification_values.h"
 #include "solver/vibration/signals/signals_filter.h"
 #include "solver/vibration/simulation/vibration_record.h"
 

@@ -1,7 +1,7 @@
 #pragma once
 // Coordinates in which a fit moves the parameters of the mass-material model.
 
-#include "solver/vibration/identification/identification.h"
+#include "solver/vibration/identification/identification_values.h"
 
 #include <Eigen/Core>
 

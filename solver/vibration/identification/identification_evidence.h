@@ -1,8 +1,9 @@
 #pragma once
 // Whether what a model leaves of a record is noise: noise does not move with the test, an error of the model does.
 
-#include "solver/vibration/identification/identification.h"
+#include "physics/point/mass_material.h"
 #include "solver/vibration/identification/identification_traces.h"
+#include "solver/vibration/simulation/vibration_record.h"
 
 #include <optional>
 #include <span>

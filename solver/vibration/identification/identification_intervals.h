@@ -2,6 +2,7 @@
 // Replicates of fitted parameters, and the intervals that follow from them.
 
 #include "solver/vibration/identification/identification_coordinates.h"
+#include "solver/vibration/identification/identification_output_error.h"
 
 #include <Eigen/Core>
 

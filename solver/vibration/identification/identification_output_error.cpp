@@ -1,8 +1,7 @@
-// refine_output and approach_output of identification.h.
+#include "solver/vibration/identification/identification_output_error.h"
 
 #include "solver/calibration/levenberg_marquardt.h"
 #include "solver/linear/dense_algebra.h"
-#include "solver/vibration/identification/identification.h"
 #include "solver/vibration/identification/identification_base_noise.h"
 #include "solver/vibration/identification/identification_coordinates.h"
 #include "solver/vibration/identification/identification_intervals.h"

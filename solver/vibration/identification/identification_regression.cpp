@@ -1,8 +1,7 @@
-// regress_states and regress_separable of identification.h.
+#include "solver/vibration/identification/identification_regression.h"
 
 #include "solver/linear/dense_algebra.h"
 #include "solver/parallel.h"
-#include "solver/vibration/identification/identification.h"
 #include "solver/vibration/identification/identification_conditioning.h"
 
 #include <Eigen/Core>

@@ -1,7 +1,6 @@
 #include "solver/vibration/identification/identification_responses.h"
 
 #include "solver/parallel.h"
-#include "solver/vibration/identification/identification.h"
 #include "solver/vibration/identification/identification_initial_motion.h"
 #include "solver/vibration/simulation/mass_material_simulation.h"
 

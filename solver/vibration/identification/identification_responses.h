@@ -1,7 +1,6 @@
 #pragma once
 // What a fit of the output compares: the conditioned responses of the recorded tests, measured and simulated from the
-// recorded base acceleration, all records one below the other. In the source also predicted_response and
-// prediction_misfit of identification.h.
+// recorded base acceleration, all records one below the other.
 
 #include "physics/point/mass_material.h"
 #include "solver/vibration/identification/identification_conditioning.h"
@@ -69,5 +68,13 @@ constexpr double tracking_width = 5.0;  ///< about the driving frequency [Hz]
 
 /// What is compared of a record: the excited band and three harmonics of it.
 Conditioner output_condition(const VibrationRecord& record, double crop);
+
+/// The model's answer z'' to the record's base acceleration [m/s^2]; NaN where it is unbounded. It begins at rest, or
+/// with the motion that a record has which begins in motion (identification_initial_motion.h).
+Eigen::VectorXd predicted_response(const MassMaterial& model, const VibrationRecord& record, double crop = 0.05);
+
+/// Relative misfit of the model's response to the record's base acceleration: norm of the difference of z'' over that
+/// of the measured one, within the excited band and its harmonics.
+double prediction_misfit(const MassMaterial& model, const VibrationRecord& record, double crop);
 
 }  // namespace pfdm

@@ -3,7 +3,7 @@
 // follows K = m omega^2 (1 + 1/H), and k + j omega c + j omega sum beta/(alpha + j omega), all parameters positive (so
 // passive), is fitted to H by maximum likelihood, every frequency weighted by its coherence.
 
-#include "solver/vibration/identification/identification.h"
+#include "solver/vibration/identification/identification_values.h"
 #include "solver/vibration/signals/signals_spectra.h"
 
 #include <optional>

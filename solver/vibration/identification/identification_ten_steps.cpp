@@ -1,4 +1,4 @@
-// ten_steps, and regress_ten_steps of identification.h: the report's iteration (A4.3) for kernels of higher order, as
+// The report's iteration (A4.3) for kernels of higher order, as
 // it is described. Stiffness and damping by least squares with v given; v as what is left; its kernel as a Prony series
 // of M1 terms from the frequency response of v on f; the M terms of the most energy; v from them; and again. Kept for
 // comparison: after the first least squares v is orthogonal to the stiffness and damping columns, so that the iteration
@@ -227,11 +227,6 @@ TenSteps ten_steps(std::span<const VibrationRecord> records, const ModelStructur
   if (structure.forcing == KernelForcing::stiffness)
     for (HereditaryTerm& term : m.kernel) term.beta /= m.stiffness.front();
   return result;
-}
-
-Regression regress_ten_steps(std::span<const VibrationRecord> records, const ModelStructure& structure, int order,
-                             const IdentificationSettings& settings, int prony_order, int maximum_iterations) {
-  return ten_steps(records, structure, order, settings, prony_order, maximum_iterations).regression;
 }
 
 VectorXd impulse_response(std::span<const HereditaryTerm> terms, Eigen::Index n, double rate) {

@@ -1,7 +1,7 @@
 #pragma once
 // The report's iteration (A4.3), with all that it did on the way.
 
-#include "solver/vibration/identification/identification.h"
+#include "solver/vibration/identification/identification_regression.h"
 
 #include <Eigen/Core>
 
@@ -34,7 +34,8 @@ struct TenSteps {
 
 constexpr double ten_step_duration = 0.02;  ///< of the impulse responses whose energies are compared [s]
 
-/// As regress_ten_steps().
+/// The report's iteration for kernels of higher order (A4.3): Prony series of `prony_order` terms, cut to
+/// `kernel_order` by energy. Takes the first record alone. For comparison: it stops near where it starts.
 TenSteps ten_steps(std::span<const VibrationRecord> records, const ModelStructure& structure, int kernel_order,
                    const IdentificationSettings& settings, int prony_order = 40, int maximum_iterations = 100);
 

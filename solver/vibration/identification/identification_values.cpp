@@ -1,9 +1,12 @@
-// named_values and peak_motion of identification.h.
+#include "solver/vibration/identification/identification_values.h"
 
-#include "solver/vibration/identification/identification.h"
 #include "solver/vibration/identification/identification_conditioning.h"
 
 #include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <numbers>
 
 namespace pfdm {
 
@@ -41,6 +44,23 @@ PeakMotion peak_motion(const VibrationRecord& record) {
   const Eigen::Index n = states.velocity.size(), edge = n / 20;
   const auto peak = [&](const Eigen::VectorXd& x) { return x.segment(edge, n - 2 * edge).lpNorm<Eigen::Infinity>(); };
   return {.displacement = peak(states.displacement), .velocity = peak(states.velocity)};
+}
+
+ExcitedRange excited_range(std::span<const VibrationRecord> records) {
+  ExcitedRange range{.low = std::numeric_limits<double>::infinity(), .high = 0.0, .velocity = 0.0, .displacement = 0.0};
+  for (const VibrationRecord& r : records) {
+    range.low = std::min(range.low, r.band_low);
+    range.high = std::max(range.high, r.band_high);
+    const PeakMotion peak = peak_motion(r);
+    range.velocity = std::max(range.velocity, peak.velocity);
+    range.displacement = std::max(range.displacement, peak.displacement);
+  }
+  return range;
+}
+
+Passivity passivity_in_band(const MassMaterial& model, std::span<const VibrationRecord> records) {
+  const auto [low, high, velocity, displacement] = excited_range(records);
+  return passivity(model, 2.0 * std::numbers::pi * low, 2.0 * std::numbers::pi * high, velocity);
 }
 
 }  // namespace pfdm

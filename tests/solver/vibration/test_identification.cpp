@@ -5,6 +5,7 @@
 
 #include "physics/error.h"
 #include "solver/vibration/identification/identification_conditioning.h"
+#include "solver/vibration/identification/identification_responses.h"
 #include "solver/vibration/identification/identification_stiffness.h"
 #include "solver/vibration/signals/signals_filter.h"
 
