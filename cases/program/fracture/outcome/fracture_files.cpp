@@ -1,7 +1,6 @@
 #include "cases/program/fracture/outcome/fracture_files.h"
 
 #include "cases/program/fracture/outcome/energy_release_table.h"
-#include "cases/program/fracture/outcome/fatigue_results.h"
 #include "cases/program/fracture/outcome/heat_results.h"
 #include "cases/program/fracture/outcome/mean_curve.h"
 #include "cases/program/session/report_parts.h"
@@ -122,6 +121,16 @@ std::vector<StoredStep> stored_steps(const fs::path& results) {
 
 std::vector<StoredStep> stored_interfaces(const fs::path& results) {
   return steps_of(results, interfaces_file, interfaces_in_one_file);
+}
+
+std::vector<std::string> columns_of_fatigue() {
+  return {"step", "load", "cycles", "jumped_cycles", "greatest_energy_over_threshold", "least_toughness_factor"};
+}
+
+std::vector<double> row_of_fatigue(const StepReport& report) {
+  const FatigueReport fatigue = report.fatigue.value_or(FatigueReport());
+  return {static_cast<double>(report.step), report.load,         fatigue.cycles, fatigue.jumped_cycles,
+          fatigue.greatest_energy,          fatigue.least_factor};
 }
 
 }  // namespace pfdm

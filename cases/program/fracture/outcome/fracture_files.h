@@ -15,6 +15,7 @@ namespace pfdm {
 
 inline constexpr const char* checkpoint_file = "checkpoint.bin";
 inline constexpr const char* columns_folder = "columns";
+inline constexpr const char* fatigue_file = "fatigue.csv";
 inline constexpr const char* frames_file = "fields.pvd";
 inline constexpr const char* frames_in_one_file = "fields.vtkhdf";
 inline constexpr const char* frames_folder = "fields";
@@ -61,5 +62,8 @@ struct StoredStep {
 std::vector<StoredStep> stored_steps(const std::filesystem::path& results);
 /// Those of the cohesive interfaces.
 std::vector<StoredStep> stored_interfaces(const std::filesystem::path& results);
+
+std::vector<std::string> columns_of_fatigue();  ///< of fatigue_file, a row for each load step
+std::vector<double> row_of_fatigue(const StepReport& report);
 
 }  // namespace pfdm

@@ -1,24 +1,18 @@
 #include "cases/program/fracture/outcome/fracture_results.h"
 
-#include "cases/program/fracture/outcome/fatigue_results.h"
 #include "cases/program/fracture/outcome/fracture_files.h"
 #include "cases/program/fracture/outcome/heat_results.h"
 #include "cases/program/fracture/outcome/mean_curve.h"
 #include "cases/program/session/earlier_results.h"
 #include "mesh/quality.h"
 #include "postproc/fields/checkpoint.h"
-#include "postproc/fields/frame.h"
-#include "postproc/fields/point_displacement.h"
 #include "postproc/fields/slice.h"
-#include "postproc/fields/vtkhdf.h"
-#include "postproc/fields/vtkhdf_frames.h"
+#include "postproc/fields/vtu_writer.h"
 #include "postproc/files/atomic_file.h"
 #include "postproc/files/text_file.h"
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
 #include <optional>
 
 namespace pfdm {
@@ -27,17 +21,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double seconds_at_stake = 2.0;  // that a killed run may lose, of those that leave figures only
-
-constexpr std::pair<const char*, const char*> lists_and_files[] = {{frames_file, frames_in_one_file},
-                                                                   {interfaces_file, interfaces_in_one_file}};
-
-/// Continues a list of frames up to the last step, or starts one.
-PvdSeries series_of(const fs::path& file, std::string (*frame_of)(Index step), std::optional<Index> last_step) {
-  if (!last_step) return PvdSeries(file);
-  return {file, [=](const Frame& frame) { return frame.file <= frame_of(*last_step); }};
-}
-
-bool same_load(double a, double b) { return std::abs(a - b) <= 1e-9 * std::max(std::abs(a), std::abs(b)); }
 
 }  // namespace
 
@@ -56,13 +39,8 @@ void write_mesh(const fs::path& results, const Mesh& mesh) {
 }
 
 FractureResults::Files::Files(const fs::path& folder, const FractureCase& fracture, const std::vector<ColumnSet>& sets,
-                              std::optional<Index> last_step, std::optional<Index> last_frame)
-    : curve(last_step ? CurveFile(folder / curve_file, *last_step) : CurveFile(folder / curve_file)),
-      frames(series_of(folder / frames_file, frame_file, last_frame)) {
-  if (!fracture.interfaces.empty()) {
-    make_folder(folder / interfaces_folder);
-    interfaces.emplace(series_of(folder / interfaces_file, interfaces_frame_file, last_frame));
-  }
+                              std::optional<Index> last_step)
+    : curve(last_step ? CurveFile(folder / curve_file, *last_step) : CurveFile(folder / curve_file)) {
   if (!sets.empty()) columns.emplace(folder / columns_folder, sets, fracture.cohesive.axis, last_step);
   if (const auto& tips = fracture.output.tips; !tips.empty()) energy_release.emplace(folder, tips, last_step);
   if (fracture.heat) heat.emplace(folder / heat_file, columns_of_heat(), last_step);
@@ -84,7 +62,7 @@ FractureResults::FractureResults(fs::path directory, const Mesh& mesh, const Fra
       case_hash_(std::move(case_hash)),
       curve_patch_(fracture.box ? std::nullopt : std::optional(mesh.patch_index(fracture.output.curve.patch))),
       place_(directory_, !last && has_results(directory_)),
-      writer_(mesh, fracture.output.frames.file),
+      frames_(mesh, model, fracture),
       damage_(mesh.n_cells(), 0.0) {
   if (!last && !place_.wait()) remove_earlier_run(directory_);  // what a run left that was killed before its first step
   make_folder(folder() / frames_folder);
@@ -92,13 +70,12 @@ FractureResults::FractureResults(fs::path directory, const Mesh& mesh, const Fra
   if (fs::exists(folder() / interfaces_folder)) remove_leftovers(folder() / interfaces_folder);
   std::optional<Index> last_step, last_frame;
   if (last) {
-    unpack_frames_in_one_file();
     last_step = last->step;
     const bool failed = status_of_earlier(directory_) != "complete";  // a frame of its end is not one that is due
-    last_frame = failed && !frame_is_due(*last) ? last->step - 1 : last->step;
-    remove_frames_beyond(*last_frame);
+    last_frame = failed && !frames_.are_due(*last) ? last->step - 1 : last->step;
   }
-  files_.emplace(folder(), fracture, columns, last_step, last_frame);
+  frames_.open(folder(), last_frame);
+  files_.emplace(folder(), fracture, columns, last_step);
   said_of_tip_.assign(fracture.output.tips.size(), false);
   if (!last) return;
   last_step_ = last->step;
@@ -127,10 +104,10 @@ std::vector<std::string> FractureResults::step_done(const FractureState& state, 
     return warnings;
   }
   files_->curve.write();
-  const bool frame = frame_is_due(state);
+  const bool frame = frames_.are_due(state);
   if (frame || files_->columns || files_->energy_release) {
     const OutputFields fields = output();
-    if (frame) write_frame(state.step, state.load, fields);
+    if (frame) frames_.write(state.step, state.load, fields);
     if (files_->columns) files_->columns->append(state.step, mesh_, model_, fields);
     if (files_->energy_release) warnings = files_->energy_release->add(mesh_, model_, state, fields, said_of_tip_);
   }
@@ -156,18 +133,6 @@ void FractureResults::record_places(Index step, const Output& output, bool now) 
   files_->places->append(step, (*sampler_)(fields.displacement, fields.gradient), now);
 }
 
-/// What a run that failed, or was killed, wrote beyond its checkpoint.
-void FractureResults::remove_frames_beyond(Index last_frame) const {
-  std::error_code ignored;
-  std::vector<fs::path> beyond;
-  for (const std::string& last : {frame_file(last_frame), interfaces_frame_file(last_frame)}) {
-    const fs::path file = folder() / last;
-    for (const auto& entry : fs::directory_iterator(file.parent_path(), ignored))
-      if (is_frame(entry.path()) && entry.path().filename() > file.filename()) beyond.push_back(entry.path());
-  }
-  for (const fs::path& file : beyond) fs::remove(file, ignored);
-}
-
 void FractureResults::write_state(const FractureState& state) {
   write_checkpoint(folder() / checkpoint_file, state, case_hash_);
   since_written_ = {};
@@ -178,7 +143,8 @@ void FractureResults::write_state(const FractureState& state) {
 void FractureResults::take_place(const FractureState& state) {
   if (!place_.wait()) return;
   place_.take_place([this] { remove_earlier_run(directory_); }, checkpoint_file);
-  files_.emplace(folder(), fracture_, sets_, state.step, state.step);
+  frames_.open(folder(), state.step);
+  files_.emplace(folder(), fracture_, sets_, state.step);
 }
 
 /// Many short runs would spend more time on flushing to the disk than on computing.
@@ -198,56 +164,8 @@ void FractureResults::write_what_waits(const FractureState& state) {
   take_place(state);
 }
 
-bool FractureResults::frame_is_due(const FractureState& state) const {
-  if (fracture_.output.figures_only) return false;
-  const auto& stops = fracture_.loading.stops;
-  const Index every = fracture_.output.frames_every;
-  return std::ranges::any_of(stops, [&](double stop) { return same_load(stop, state.load); }) ||
-         same_load(state.load, fracture_.loading.end) || (every > 0 && state.step % every == 0);
-}
-
-void FractureResults::write_frame(Index step, double load, const OutputFields& output) {
-  double time = fracture_.output.frames.time(step, load);
-  // ParaView wants times that rise; those of a restart with another [loading] may be measured in something else.
-  if (const auto& before = files_->frames.frames(); !before.empty() && !(time > before.back().time))
-    time = std::max(static_cast<double>(step), std::floor(before.back().time) + 1.0);
-  const SplitPoints points = point_displacement(mesh_, model_.boundary, output, load);
-  writer_.write(folder() / frame_file(step), frame_fields(mesh_, output), time, &points);
-  files_->frames.add(time, frame_file(step));
-  if (files_->interfaces) write_interfaces(step, time, output);
-}
-
-void FractureResults::write_interfaces(Index step, double time, const OutputFields& output) {
-  const InterfaceFrame frame(output.interfaces);
-  VtuWriter(mesh_, frame.faces(), fracture_.output.frames.file)
-      .write(folder() / interfaces_frame_file(step), frame.fields(), time);
-  files_->interfaces->add(time, interfaces_frame_file(step));
-}
-
 void FractureResults::write_last_frame(const Output& output) {
-  const auto& frames = files_->frames.frames();
-  if (fracture_.output.figures_only) return;
-  if (frames.empty() || frames.back().file != frame_file(last_step_)) write_frame(last_step_, last_load_, output());
-}
-
-void FractureResults::put_frames_into_one_file() const {
-  if (!fracture_.output.frames.in_one_file || files_->frames.frames().empty()) return;
-  for (const auto& [list, one_file] : lists_and_files) {
-    if (!fs::exists(folder() / list)) continue;
-    write_vtkhdf(folder() / list, folder() / one_file);
-    std::error_code ignored;
-    const std::vector<Frame> frames = read_pvd(folder() / list);
-    fs::remove(folder() / list, ignored);
-    for (const Frame& frame : frames) fs::remove(folder() / frame.file, ignored);
-    fs::remove((folder() / frames.front().file).parent_path(), ignored);  // unless there is something else in it
-  }
-}
-
-/// A run goes on with files of their own, which outlive a kill; these go with its first step.
-void FractureResults::unpack_frames_in_one_file() const {
-  for (const auto& [list, one_file] : lists_and_files)
-    if (!fs::exists(folder() / list) && fs::exists(folder() / one_file))
-      unpack_frames(folder() / one_file, folder() / list, fracture_.output.frames.file.compression);
+  if (!fracture_.output.figures_only && !frames_.has(last_step_)) frames_.write(last_step_, last_load_, output());
 }
 
 std::map<std::string, double> FractureResults::damaged_areas() const {

@@ -4,6 +4,7 @@
 
 #include "cases/program/fracture/case/fracture_case.h"
 #include "cases/program/fracture/outcome/energy_release_table.h"
+#include "cases/program/fracture/outcome/run_frames.h"
 #include "cases/program/session/terminal/stopwatch.h"
 #include "mesh/mesh.h"
 #include "postproc/cohesive/column_record.h"
@@ -12,8 +13,6 @@
 #include "postproc/curves/summary.h"
 #include "postproc/displacements/place_record.h"
 #include "postproc/displacements/place_sampler.h"
-#include "postproc/fields/pvd.h"
-#include "postproc/fields/vtu_writer.h"
 #include "postproc/files/new_results.h"
 #include "postproc/files/step_table.h"
 #include "solver/fracture/model/state.h"
@@ -53,7 +52,7 @@ class FractureResults {
   /// A frame of the last state, if it has none yet.
   void write_last_frame(const Output& output);
   /// All frames in one file in place of their own, if the case asks for it. The last that is done with frames.
-  void put_frames_into_one_file() const;
+  void put_frames_into_one_file() const { frames_.put_into_one_file(); }
   /// Fills in what the curve and the last damage tell; returns the whole.
   RunSummary write_summary(RunSummary summary) const;
 
@@ -65,26 +64,19 @@ class FractureResults {
   /// The files that grow with the steps.
   struct Files {
     Files(const std::filesystem::path& folder, const FractureCase& fracture, const std::vector<ColumnSet>& sets,
-          std::optional<Index> last_step, std::optional<Index> last_frame);
+          std::optional<Index> last_step);
     CurveFile curve;
-    PvdSeries frames;
     std::optional<ColumnFiles> columns;
     std::optional<EnergyReleaseTable> energy_release;
-    std::optional<PvdSeries> interfaces;
     std::optional<StepTable> means;
     std::optional<StepTable> heat;
     std::optional<StepTable> fatigue;
     std::optional<PlaceRecord> places;
   };
 
-  bool frame_is_due(const FractureState& state) const;
   bool may_wait() const;
-  void remove_frames_beyond(Index last_frame) const;
-  void unpack_frames_in_one_file() const;
   void write_state(const FractureState& state);
   void take_place(const FractureState& state);
-  void write_frame(Index step, double load, const OutputFields& output);
-  void write_interfaces(Index step, double time, const OutputFields& output);
   void record_places(Index step, const Output& output, bool now);
   void note_debonding(const FractureState& state, const StepReport& report, const Output& output);
   CurveRow row_of(const StepReport& report) const;
@@ -102,7 +94,7 @@ class FractureResults {
   std::optional<Index> curve_patch_;  // none of a box
   NewResults place_;
   std::optional<Files> files_;
-  VtuWriter writer_;
+  RunFrames frames_;
   std::vector<bool> said_of_tip_;  // region by region
   std::optional<PlaceSampler> sampler_;
   Index last_step_ = 0;

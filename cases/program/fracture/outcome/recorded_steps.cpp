@@ -1,7 +1,6 @@
 #include "cases/program/fracture/outcome/recorded_steps.h"
 
 #include "cases/program/fracture/outcome/energy_release_table.h"
-#include "cases/program/fracture/outcome/fatigue_results.h"
 #include "cases/program/fracture/outcome/fracture_files.h"
 #include "cases/program/fracture/outcome/mean_curve.h"
 #include "postproc/fields/checkpoint.h"
