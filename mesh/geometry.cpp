@@ -42,7 +42,7 @@ void compute_cell(Mesh& mesh, Index cell) {
   for (const Index f : faces) reference += mesh.face_centre[f] - mesh.face_centre[faces[0]];
   reference = mesh.face_centre[faces[0]] + reference / static_cast<double>(faces.size());
   CellSums sums;
-  for (const Index f : faces) add_face(sums, mesh, f, reference, mesh.owner[f] == cell ? 1.0 : -1.0);
+  for (const Index f : faces) add_face(sums, mesh, f, reference, mesh.outwards(f, cell));
   mesh.cell_volume[cell] = sums.volume;
   mesh.cell_centre[cell] = sums.volume > 0.0 ? Vector(reference + sums.moment / sums.volume) : reference;
 }

@@ -140,7 +140,7 @@ void check_cells(const Mesh& mesh, const std::vector<Index>& order) {
     Vector sum = Vector::Zero();
     double total = 0.0;
     for (const Index f : mesh.faces_of_cell(c)) {
-      sum += mesh.owner[f] == c ? mesh.face_area[f] : Vector(-mesh.face_area[f]);
+      sum += mesh.outward_area(f, c);
       total += mesh.face_area[f].norm();
     }
     if (!(sum.norm() <= closure_tolerance * total))

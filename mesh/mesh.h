@@ -56,6 +56,10 @@ struct Mesh {
 
   /// The cell on the other side of an interior face.
   Index across(Index face, Index cell) const { return owner[face] == cell ? neighbour[face] : owner[face]; }
+  /// 1 where a face's normal leads out of this cell, -1 where it leads into it.
+  double outwards(Index face, Index cell) const { return owner[face] == cell ? 1.0 : -1.0; }
+  /// Area vector of a face as this cell sees it, outwards [m^2].
+  Vector outward_area(Index face, Index cell) const { return outwards(face, cell) * face_area[face]; }
 
   /// Throws InputError naming the patches there are.
   Index patch_index(const std::string& name) const;

@@ -35,10 +35,7 @@ FaceQuality face_quality(const Mesh& mesh, Index face) {
 }
 
 double dihedral_angle(const Mesh& mesh, Index cell, Index f, Index g) {
-  const auto outward = [&](Index face) {
-    return mesh.owner[face] == cell ? mesh.face_area[face] : Vector(-mesh.face_area[face]);
-  };
-  return 180.0 - angle_between(outward(f), outward(g));
+  return 180.0 - angle_between(mesh.outward_area(f, cell), mesh.outward_area(g, cell));
 }
 
 Statistic statistic(const std::vector<double>& values) {

@@ -17,7 +17,7 @@ struct Exit {
 Exit exit_of(const Mesh& mesh, Index cell, const Vector& point, const Vector& direction) {
   Exit exit;
   for (const Index f : mesh.faces_of_cell(cell)) {
-    const Vector n = (mesh.owner[f] == cell ? 1.0 : -1.0) * mesh.face_area[f].normalized();
+    const Vector n = mesh.outward_area(f, cell).normalized();
     const double cosine = n.dot(direction);
     if (cosine <= along_face) continue;
     const double at = n.dot(mesh.face_centre[f] - point) / cosine;

@@ -43,7 +43,7 @@ double extent(const Mesh& mesh) {
 Column column_from_face(const Mesh& mesh, Index face, Index into, double longest, const Vector& axis) {
   Column column;
   column.point = mesh.face_centre[face];
-  column.normal = (mesh.owner[face] == into ? -1.0 : 1.0) * mesh.face_area[face].normalized();
+  column.normal = -mesh.outward_area(face, into).normalized();
   column.tangents = surface_tangents(column.normal, axis);
   column.area = mesh.face_area[face].norm();
   column.segments = walk_line(mesh, into, column.point, column.normal, longest);

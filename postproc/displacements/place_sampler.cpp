@@ -24,10 +24,8 @@ CellLocator::CellLocator(const Mesh& mesh) : mesh_(mesh), tree_(boxes_of(mesh)) 
 
 double CellLocator::beyond(Index cell, const Vector& x) const {
   double most = 0.0;
-  for (const Index f : mesh_.faces_of_cell(cell)) {
-    const double outwards = mesh_.owner[f] == cell ? 1.0 : -1.0;
-    most = std::max(most, outwards * mesh_.face_area[f].normalized().dot(x - mesh_.face_centre[f]));
-  }
+  for (const Index f : mesh_.faces_of_cell(cell))
+    most = std::max(most, mesh_.outward_area(f, cell).normalized().dot(x - mesh_.face_centre[f]));
   return most;
 }
 

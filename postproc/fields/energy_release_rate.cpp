@@ -52,7 +52,7 @@ double extent_along(const Mesh& mesh, const Vector& axis) {
 // does.
 Vector gradient_of(const Mesh& mesh, const FaceField<double>& q, Index c) {
   Vector gradient = Vector::Zero();
-  for (const Index f : mesh.faces_of_cell(c)) gradient += (mesh.owner[f] == c ? q[f] : -q[f]) * mesh.face_area[f];
+  for (const Index f : mesh.faces_of_cell(c)) gradient += q[f] * mesh.outward_area(f, c);
   return gradient;
 }
 
@@ -77,8 +77,7 @@ Elastic elastic_in(const Mesh& mesh, const OutputFields& output, Index c) {
   Tensor moment = Tensor::Zero(),
          closure = Tensor::Zero();  // the latter the volume's unit matrix where faces are plane
   for (const Index f : mesh.faces_of_cell(c)) {
-    const double sign = mesh.owner[f] == c ? 1.0 : -1.0;
-    const Vector lever = sign * (mesh.face_centre[f] - mesh.cell_centre[c]);
+    const Vector lever = mesh.outwards(f, c) * (mesh.face_centre[f] - mesh.cell_centre[c]);
     moment += mesh.face_area[f].norm() * output.traction[f] * lever.transpose();
     closure += mesh.face_area[f] * lever.transpose();
   }

@@ -48,7 +48,7 @@ Section section_through(const Mesh& mesh, Index cell, const Plane& plane, double
   Section section;
   for (const Index face : mesh.faces_of_cell(cell)) {
     const Section swept = swept_by_face(mesh, face, plane, tolerance, origin);
-    const double sign = mesh.owner[face] == cell ? 1.0 : -1.0;
+    const double sign = mesh.outwards(face, cell);
     section.area += sign * swept.area;
     section.centre += sign * swept.centre;
   }

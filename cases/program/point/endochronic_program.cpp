@@ -7,7 +7,6 @@
 #include "cases/program/point/endochronic_report.h"
 #include "cases/program/point/endochronic_words.h"
 #include "cases/program/session/fit_verdict.h"
-#include "cases/program/session/page_origin.h"
 #include "cases/program/session/report_parts.h"
 #include "cases/program/session/whole_run.h"
 #include "postproc/curves/summary.h"
@@ -116,8 +115,7 @@ void fit_case(const EndochronicProgram& program, Session& session) {
                       stress_shown(rms_misfit(found.fit.law, fit.experiments, fit.settings.control)),
                       stress_shown(rms_measured(fit.experiments)), found.fit.result.evaluations, seconds,
                       end_of_search(found.fit.result.message)));
-  log.say(fmt::format("written to {}; run it with: {} run {}", session.results.string(), called_as(),
-                      (session.results / "case.fitted.toml").string()));
+  say_fitted_case(session);
   say_verdict(findings, session);
 }
 

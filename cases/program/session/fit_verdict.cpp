@@ -1,5 +1,6 @@
 #include "cases/program/session/fit_verdict.h"
 
+#include "cases/program/session/page_origin.h"
 #include "physics/error.h"
 
 #include <fmt/format.h>
@@ -41,6 +42,11 @@ std::string verdict_text(const FitFindings& found) {
   if (is_sound(found.verdict)) return std::string(name_of(found.verdict));
   return fmt::format("{}, {}", name_of(found.verdict),
                      found.posterior ? "intervals with a discrepancy of the model only" : "no intervals");
+}
+
+void say_fitted_case(const Session& session) {
+  session.log.say(fmt::format("written to {}; run it with: {} run {}", session.results.string(), called_as(),
+                              (session.results / "case.fitted.toml").string()));
 }
 
 void say_verdict(const FitFindings& found, const Session& session) {

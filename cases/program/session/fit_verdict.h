@@ -28,6 +28,9 @@ std::string moved_text(const FittedParameter& p);
 /// The verdict, and what it means for the intervals: of tables.
 std::string verdict_text(const FitFindings& found);
 
+/// Says where the results of a fit are, and the command that runs the fitted case.
+void say_fitted_case(const Session& session);
+
 /// The last words of a fit: warnings, reasons, verdict. Throws ComputationError if --strict asks for a sound one.
 void say_verdict(const FitFindings& found, const Session& session);
 

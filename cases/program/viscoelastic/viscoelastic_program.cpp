@@ -2,7 +2,6 @@
 
 #include "cases/program/input/laws/prony_reader.h"
 #include "cases/program/session/fit_verdict.h"
-#include "cases/program/session/page_origin.h"
 #include "cases/program/session/report_parts.h"
 #include "cases/program/session/whole_run.h"
 #include "cases/program/viscoelastic/viscoelastic_case.h"
@@ -173,8 +172,7 @@ void fit_case(const ViscoelasticProgram& program, Session& session) {
   log.say(fmt::format("largest misfit {:.3g} % of what was measured; {:.1f} s; {}",
                       100.0 * relative_misfit(found.fit.law, fit.experiments), seconds,
                       end_of_search(found.fit.result.message)));
-  log.say(fmt::format("written to {}; run it with: {} run {}", session.results.string(), called_as(),
-                      (session.results / "case.fitted.toml").string()));
+  say_fitted_case(session);
   say_material(found.fit.law, log);
   say_verdict(findings, session);
 }

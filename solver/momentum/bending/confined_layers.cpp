@@ -44,7 +44,7 @@ class ConfinedSearch {
   }
 
   std::optional<ConfinedLayer> at(Index face, Index cell) const {
-    const Vector across = (mesh_.owner[face] == cell ? -1.0 : 1.0) * mesh_.face_area[face].normalized();
+    const Vector across = -mesh_.outward_area(face, cell).normalized();
     const InLayer through = walk(cell, mesh_.face_centre[face], across);
     if (through.end != InLayerEnd::held && through.end != InLayerEnd::mirror) return std::nullopt;
     if (std::abs(mesh_.face_area[through.face].normalized().dot(across)) < 0.95) return std::nullopt;

@@ -150,9 +150,7 @@ class LayerGradients::Maker {
 
   // Takes the derivative along the line to the gradient, those along the faces being kept.
   Vector dual_of(Index cell, const FacePair& faces) const {
-    const auto outwards = [&](Index f) -> Vector {
-      return (mesh_.owner[f] == cell ? 1.0 : -1.0) * mesh_.face_area[f].normalized();
-    };
+    const auto outwards = [&](Index f) -> Vector { return mesh_.outward_area(f, cell).normalized(); };
     const Vector line = (mesh_.face_centre[faces[1]] - mesh_.face_centre[faces[0]]).normalized();
     const Vector normal = (outwards(faces[1]) - outwards(faces[0])).normalized();
     return normal / normal.dot(line);

@@ -40,7 +40,7 @@ CellSums sum_over_faces(Index cell, const FaceMoves& moves, const Also& also) {
   CellSums sums;
   const FaceSkeleton::SignedForce* next = skeleton.forces_of(cell).data();
   for (const Index f : mesh.faces_of_cell(cell)) {
-    const Vector area = (mesh.owner[f] == cell ? 1.0 : -1.0) * mesh.face_area[f];
+    const Vector area = mesh.outward_area(f, cell);
     const Vector move = moves.seen_from(cell, f) - moves.u[cell];
     sums.gradient += move * area.transpose();
     const bool has_node_or_link = skeleton.force_of_face[f] >= 0;

@@ -11,10 +11,8 @@ CellField<Tensor> closures(const Mesh& mesh) {
   CellField<Tensor> closure(mesh.n_cells());
   parallel_for(mesh.n_cells(), [&](Index c) {
     Tensor K = Tensor::Zero();
-    for (const Index f : mesh.faces_of_cell(c)) {
-      const double sign = mesh.owner[f] == c ? 1.0 : -1.0;
-      K += sign * mesh.face_area[f] * (mesh.face_centre[f] - mesh.cell_centre[c]).transpose();
-    }
+    for (const Index f : mesh.faces_of_cell(c))
+      K += mesh.outward_area(f, c) * (mesh.face_centre[f] - mesh.cell_centre[c]).transpose();
     closure[c] = (K / mesh.cell_volume[c]).inverse();
   });
   return closure;

@@ -45,6 +45,11 @@ struct FaceSkeleton {
   std::size_t n_turns() const { return 2 * links.size() + sides.size(); }
   static std::size_t turn_P(std::size_t link) { return 2 * link; }
   static std::size_t turn_N(std::size_t link) { return 2 * link + 1; }
+  /// Of the part of a link's jump that no traction bears, what the displacement of the face has beyond the gap of the
+  /// cell at side number `turn` [m]. `towards_N`: what it has beyond that of P.
+  static Vector idle_share(std::size_t turn, const Vector& idle, const Vector& towards_N) {
+    return turn % 2 == 0 ? towards_N : Vector(towards_N - idle);
+  }
   std::size_t turn_of_side(std::size_t side) const { return 2 * links.size() + side; }
   bool is_side(std::size_t turn) const { return turn >= 2 * links.size(); }
   std::size_t force_at(std::size_t turn) const { return is_side(turn) ? turn - links.size() : turn / 2; }

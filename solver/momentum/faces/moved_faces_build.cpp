@@ -238,7 +238,7 @@ class MovedFacesBuilder {
     const auto ids = mesh_.points_of_face(face);
     std::vector<Index> points(ids.begin(), ids.end());
     if (mesh_.owner[face] != cell) std::ranges::reverse(points);
-    const Vector normal = mesh_.face_area[face] / (mesh_.owner[face] == cell ? loop.size : -loop.size);
+    const Vector normal = mesh_.outward_area(face, cell) / loop.size;
     const Vector apex = fan_middle(mesh_, face);
     for (std::size_t i = 0; i < points.size(); ++i) {
       faces_.loop_corners_.push_back(corner(cell, points[i]));

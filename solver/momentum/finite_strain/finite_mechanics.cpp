@@ -100,8 +100,8 @@ Vector FiniteTractions::gap(Index cell, const Vector& d, std::size_t turn, const
   const Link& link = skeleton_.links[i];
   const Vector jump =
       moves.u[link.N] + s.gradients[link.N] * link.d_N - moves.u[link.P] - s.gradients[link.P] * link.d_P;
-  const Vector beyond = jump - weights_.weigh(i, jump), on_P = link_tensors_[i].weight.transpose() * beyond;
-  return whole - on_P + (memory_.outwards(turn) < 0.0 ? beyond : Vector::Zero());
+  const Vector idle = jump - weights_.weigh(i, jump);
+  return whole - FaceSkeleton::idle_share(turn, idle, link_tensors_[i].weight.transpose() * idle);
 }
 
 // Gaps of viscoelastic cells, as strains that do not turn with the cell, and the gradients that laws have met.

@@ -79,11 +79,6 @@ HistoryTractions::GapStiffness HistoryTractions::gap_stiffness(Index c, const Hi
   return {share * 4.0 / 3.0, share};
 }
 
-Vector HistoryTractions::outwards(Index cell, Index face) const {
-  const Mesh& mesh = skeleton_.mesh;
-  return (mesh.owner[face] == cell ? 1.0 : -1.0) * mesh.face_area[face].normalized();
-}
-
 // visit(place of the face in Mesh::cell_faces, the face, its normal outwards, force) of each that bears a force.
 template <class Visit>
 void HistoryTractions::visit_sides(Index cell, const Visit& visit) const {
@@ -92,7 +87,8 @@ void HistoryTractions::visit_sides(Index cell, const Visit& visit) const {
   const std::size_t first = mesh.cell_face_offsets[cell];
   const auto faces = mesh.faces_of_cell(cell);
   for (std::size_t k = 0; k < faces.size(); ++k)
-    if (skeleton_.force_of_face[faces[k]] >= 0) visit(first + k, faces[k], outwards(cell, faces[k]), *next++);
+    if (skeleton_.force_of_face[faces[k]] >= 0)
+      visit(first + k, faces[k], mesh.outward_area(faces[k], cell).normalized(), *next++);
 }
 
 void HistoryTractions::bear_gaps(const HistoryStress& history, const CellField<double>& g) {

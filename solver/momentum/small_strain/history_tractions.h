@@ -50,7 +50,6 @@ class HistoryTractions final : public IsotropicTractions {
   void add_gaps(Index cell, const FaceMoves& moves, CellMechanics& result) const;
   // Adds to a gap, as strain, what the gradient on a side has beyond that of the cell.
   void add_strain_on_side(Index cell, const Vector& n, std::size_t turn, const Sweep& sweep, FaceGap& gap) const;
-  Vector outwards(Index cell, Index face) const;
   template <class Visit>
   void visit_sides(Index cell, const Visit& visit) const;
 

@@ -81,10 +81,9 @@ double IsotropicTractions::lag(std::size_t i, const Tensor& change) const {
 
 double IsotropicTractions::side_flux(std::size_t i, const Vector& u_f, const IsotropicSweep& s) const {
   const Side& side = skeleton_.sides[i];
-  const double sign = skeleton_.mesh.owner[side.face] == side.cell ? 1.0 : -1.0;
   const double beyond = cells_.layers().any() ? lag(i, symmetric_part(s.layers[skeleton_.turn_of_side(i)])) : 0.0;
-  return side.area * (side.n.dot(u_f) + beyond) +
-         sign * cells_.pressure().flux_of_warp(side.face, s.gradients[side.cell]);
+  return side.area * (side.n.dot(u_f) + beyond) + skeleton_.mesh.outwards(side.face, side.cell) *
+                                                      cells_.pressure().flux_of_warp(side.face, s.gradients[side.cell]);
 }
 
 // V q / (lambda - lambda_s) - sum of u_f.S. There is no flux through the sector's own faces.

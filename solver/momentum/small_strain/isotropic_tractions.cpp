@@ -153,8 +153,8 @@ Vector IsotropicTractions::gap(Index cell, const Vector& d, std::size_t turn, co
   const std::size_t i = turn / 2, P = FaceSkeleton::turn_P(i), N = FaceSkeleton::turn_N(i);
   const Link& link = skeleton_.links[i];
   const Vector jump = u[link.N] + rise(link.N, link.d_N, N, s) - u[link.P] - rise(link.P, link.d_P, P, s);
-  const Vector without = jump - cells_.layers().weight(i) * jump, towards_N = weigh(i, without);
-  return gap - (turn == P ? towards_N : Vector(towards_N - without));
+  const Vector idle = jump - cells_.layers().weight(i) * jump;
+  return gap - FaceSkeleton::idle_share(turn, idle, weigh(i, idle));
 }
 
 Tensor IsotropicTractions::softness_of_side(std::size_t i) const {

@@ -142,14 +142,14 @@ double LawTractions::stress_across(Index cell, const Tensor& strain, const Sweep
 }
 
 // The part of the jump at a link without weight that the face's displacement has beyond a cell's gap [m].
-Vector LawTractions::unweighed(Index cell, std::size_t turn, const FaceMoves& moves) const {
+Vector LawTractions::idle(std::size_t turn, const FaceMoves& moves) const {
   if (skeleton_.is_side(turn) || !cells_.layers().weighs(turn / 2)) return Vector::Zero();
   const std::size_t i = turn / 2;
   const Link& link = skeleton_.links[i];
   const CellField<Tensor>& G = moves.sweep.gradients;
   const Vector jump = moves.u[link.N] + G[link.N] * link.d_N - moves.u[link.P] - G[link.P] * link.d_P;
-  const Vector without = jump - weighed(i, jump), towards_N = link_tensors_[i].weight.transpose() * without;
-  return cell == link.P ? towards_N : Vector(towards_N - without);
+  const Vector rest = jump - weighed(i, jump);
+  return FaceSkeleton::idle_share(turn, rest, link_tensors_[i].weight.transpose() * rest);
 }
 
 // Splits of the regions may differ in kind: an isotropic part is that of cells with secant moduli.
@@ -157,7 +157,7 @@ double LawTractions::energy_of_part(Index cell, const IsotropicElasticity& part,
                                     const FaceMoves& moves) const {
   const LawSweep& s = of(moves.sweep);
   const auto at = [&](std::size_t turn, const Vector& d, const Vector& n, const Vector& move) -> Tensor {
-    const Vector gap = move - s.gradients[cell] * d - unweighed(cell, turn, moves);
+    const Vector gap = move - s.gradients[cell] * d - idle(turn, moves);
     return gradient_at(cell, turn, s) + gap * n.transpose() / bounded_height(d, n);
   };
   return part.mu > 0.0 ? energy_over_faces(cell, with_jump_modulus(cell, part), strain, moves, at)

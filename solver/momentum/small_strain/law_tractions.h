@@ -82,7 +82,7 @@ class LawTractions final : public SmallTractions {
   Vector weighed(std::size_t link, const Vector& jump) const {
     return cells_.layers().any() ? Vector(cells_.layers().weight(link) * jump) : jump;
   }
-  Vector unweighed(Index cell, std::size_t turn, const FaceMoves& moves) const;
+  Vector idle(std::size_t turn, const FaceMoves& moves) const;
   static const LawSweep& of(const Sweep& sweep) { return static_cast<const LawSweep&>(sweep); }
   static LawSweep& of(Sweep& sweep) { return static_cast<LawSweep&>(sweep); }
   // Part that varies with the displacements [Pa].

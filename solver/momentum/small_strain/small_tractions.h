@@ -82,7 +82,7 @@ double SmallTractions::energy_over_faces(Index cell, const Part& part, const Ten
   for (const Index f : mesh.faces_of_cell(cell)) {
     if (skeleton_.force_of_face[f] < 0) continue;
     const std::size_t turn = skeleton_.turn_at(*next++);
-    const Vector area = (mesh.owner[f] == cell ? 1.0 : -1.0) * mesh.face_area[f];
+    const Vector area = mesh.outward_area(f, cell);
     const Vector n = area.normalized(), d = mesh.face_centre[f] - mesh.cell_centre[cell];
     const Vector move = moves.seen_from(cell, f) - moves.u[cell];
     const Tensor at_face = with_strain_across(cell, gradient_at(turn, d, n, move) - eigenstrain_change(turn));

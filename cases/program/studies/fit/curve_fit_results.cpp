@@ -1,7 +1,6 @@
 #include "cases/program/studies/fit/curve_fit_results.h"
 
 #include "cases/program/session/fit_verdict.h"
-#include "cases/program/session/page_origin.h"
 #include "physics/quantity_text.h"
 #include "postproc/curves/curve_misfit.h"
 #include "postproc/files/atomic_file.h"
@@ -209,8 +208,7 @@ void write_curve_fit(const CurveFitJob& job, const CurveFitFindings& found, Sess
   session.log.say(fmt::format("{}{}; {:.1f} s; {}", counts_text(found.runs),
                               found.coarse_runs ? ", of the coarse case " + counts_text(*found.coarse_runs) : "",
                               found.seconds, end_of_search(report.found.message)));
-  session.log.say(fmt::format("written to {}; run it with: {} run {}", results.string(), called_as(),
-                              (results / "case.fitted.toml").string()));
+  say_fitted_case(session);
   say_verdict(report.found, session);
 }
 
