@@ -40,6 +40,7 @@ struct Parser {
   }
   CLI::App& command(const std::string& name) const { return *app.get_subcommand(name); }
   void add_case_options();
+  void add_job_options();
   void add_export_options();
   void add_sensitivity_options();
   void add_other_options();
@@ -63,6 +64,7 @@ Parser::Parser() {
   for (const CommandText& text : case_commands) add(text);
   for (const CommandText& text : other_commands) add(text);
   add_case_options();
+  add_job_options();
   add_export_options();
   add_sensitivity_options();
   add_other_options();
@@ -71,14 +73,12 @@ Parser::Parser() {
 void Parser::add_case_options() {
   for (const CommandText& text : case_commands) {
     CLI::App& of = command(text.name);
-    if (of.get_name() == "report")
-      of.add_option("CASE", line.cases, "the case directory, or a .toml file in it; several are set side by side")
-          ->required()
-          ->type_name("");
-    else
-      of.add_option("CASE", line.case_directory, "the case directory, or a .toml file in it")
-          ->required()
-          ->type_name("");
+    CLI::Option* const where =
+        of.get_name() == "report"
+            ? of.add_option("CASE", line.cases,
+                            "the case directory, or a .toml file in it; several are set side by side")
+            : of.add_option("CASE", line.case_directory, "the case directory, or a .toml file in it");
+    where->required()->type_name("");
     of.add_option("--threads", line.threads, "number of threads (default: all cores that a control group leaves)")
         ->check(CLI::Range(1, most_threads()).description(""))
         ->type_name("N");
@@ -94,23 +94,24 @@ void Parser::add_case_options() {
           ->check(not_empty())
           ->type_name("DIR");
   }
-  command("run").add_flag("--restart", line.restart, "continue from the last complete step");
-  command("run").add_flag("--live", line.live,
-                          "keep report/index.html in the results up to date while a fracture run goes on; the page "
-                          "loads itself again");
-  command("run")
-      .add_option("--max-steps", line.max_steps, "stop after N load steps; --restart continues from there")
+}
+
+void Parser::add_job_options() {
+  CLI::App &run = command("run"), &sweep = command("sweep");
+  run.add_flag("--restart", line.restart, "continue from the last complete step");
+  run.add_flag("--live", line.live,
+               "keep report/index.html in the results up to date while a fracture run goes on; the page "
+               "loads itself again");
+  run.add_option("--max-steps", line.max_steps, "stop after N load steps; --restart continues from there")
       ->check(CLI::Range(1, 1000000000).description(""))
       ->type_name("N");
-  command("run")
-      .add_option("--curve-to", line.curve_to,
-                  "also write each row of force_displacement.csv here, as to a script's pipe, when its step is done")
+  run.add_option("--curve-to", line.curve_to,
+                 "also write each row of force_displacement.csv here, as to a script's pipe, when its step is done")
       ->type_name("FILE");
   command("fit").add_flag("--strict", line.strict,
                           "end with status 1 if the verdict on the fit is none of the sound ones");
-  command("sweep").add_flag("--slurm", line.slurm, "submit the missing runs to Slurm, or collect them");
-  command("sweep")
-      .add_option("--prepared", line.prepared, "run this one of the runs that --slurm has prepared")
+  sweep.add_flag("--slurm", line.slurm, "submit the missing runs to Slurm, or collect them");
+  sweep.add_option("--prepared", line.prepared, "run this one of the runs that --slurm has prepared")
       ->type_name("RUN")
       ->needs("--output")
       ->group("");

@@ -115,6 +115,27 @@ std::vector<std::string> told_of(const Selection& s, const std::vector<RecordedF
   return told;
 }
 
+void require_points_in_body(const std::vector<RecordedFrame>& kept, const Selection& selection,
+                            const std::string& name) {
+  if (std::ranges::all_of(kept, [](const RecordedFrame& frame) { return frame.points.empty(); }) &&
+      selection.nearest() > 0.0 && selection.n_outside > 0)
+    throw InputError(fmt::format(
+        "all points of \"{}\" lie outside of the body, the nearest by {}: see \"plane\" (origin and axes of x and y in "
+        "the body), and the unit of the coordinates",
+        name, quantity_text(selection.nearest(), "m", 3)));
+}
+
+void tell_of_squares(const FieldSquares& squares, std::vector<std::string>& told) {
+  if (squares.n_carried() > 0)
+    told.push_back(
+        fmt::format("{} means lack points that other frames have, and are carried to the middle of all by the plane "
+                    "through them",
+                    squares.n_carried()));
+  if (squares.n_own() > 0)
+    told.push_back(fmt::format(
+        "{} means lack more, or show no plane within the noise: each is computed at its own points", squares.n_own()));
+}
+
 }  // namespace
 
 MeasuredField selected_field(const RecordedField& recorded, const FieldSelection& how, const Mesh& mesh,
@@ -131,12 +152,7 @@ MeasuredField selected_field(const RecordedField& recorded, const FieldSelection
   Selection selection(recorded, how, mesh);
   std::vector<RecordedFrame> kept;
   for (const RecordedFrame& frame : recorded.frames) kept.push_back(selection.kept(frame, field.spacing));
-  if (std::ranges::all_of(kept, [](const RecordedFrame& frame) { return frame.points.empty(); }) &&
-      selection.nearest() > 0.0 && selection.n_outside > 0)
-    throw InputError(fmt::format(
-        "all points of \"{}\" lie outside of the body, the nearest by {}: see \"plane\" (origin and axes of x and y in "
-        "the body), and the unit of the coordinates",
-        recorded.name, quantity_text(selection.nearest(), "m", 3)));
+  require_points_in_body(kept, selection, recorded.name);
   const double side = side_of_squares(kept, field.spacing, how.most);
   field.pitch = side > 0.0 ? side : field.spacing;
   field.told = told_of(selection, kept, side);
@@ -150,14 +166,7 @@ MeasuredField selected_field(const RecordedField& recorded, const FieldSelection
   if (field.frames.empty())
     throw InputError(fmt::format("no frame of \"{}\" has {} points or more that count: {}", recorded.name, fewest,
                                  field.told.front()));
-  if (squares.n_carried() > 0)
-    field.told.push_back(
-        fmt::format("{} means lack points that other frames have, and are carried to the middle of all by the plane "
-                    "through them",
-                    squares.n_carried()));
-  if (squares.n_own() > 0)
-    field.told.push_back(fmt::format(
-        "{} means lack more, or show no plane within the noise: each is computed at its own points", squares.n_own()));
+  tell_of_squares(squares, field.told);
   field.told.insert(field.told.begin(), recorded.told.begin(), recorded.told.end());
   return field;
 }

@@ -66,6 +66,17 @@ MatrixXd coefficients(const MatrixXd& hessenberg, Eigen::Index m, double norm, i
   return all;
 }
 
+/// Takes the parts along the columns of V off a vector, twice, and returns them.
+VectorXd make_orthogonal(const MatrixXd& V, VectorXd& to) {
+  VectorXd parts = VectorXd::Zero(V.cols());
+  for (int twice = 0; twice < 2; ++twice) {
+    const VectorXd along = V.transpose() * to;
+    to -= V * along;
+    parts += along;
+  }
+  return parts;
+}
+
 }  // namespace
 
 std::vector<SurfaceTemperature> surface_under_steady_source(const Mesh& mesh, const HeatedMaterial& material,
@@ -89,11 +100,7 @@ std::vector<SurfaceTemperature> surface_under_steady_source(const Mesh& mesh, co
   V.col(0) = first / norm;
   for (Eigen::Index m = 1;; ++m) {
     VectorXd next = step(V.col(m - 1));
-    for (int twice = 0; twice < 2; ++twice) {
-      const VectorXd along = V.transpose() * next;
-      next -= V * along;
-      H.col(m - 1).head(m) += along;
-    }
+    H.col(m - 1).head(m) = make_orthogonal(V, next);
     const double rest = next.norm();
     H(m, m - 1) = rest;
     const bool ends = m == most || !(rest > 1e-14);

@@ -76,23 +76,53 @@ void prepare(const FractureProgram& program, Session& session) {
   if (session.meshes) find_mesh(program, *session.meshes, session.log);
 }
 
-void run_case(FractureProgram program, Session& session) {
+/// Leaves out what many runs do without, and adds what the job wants to know.
+void adapt_output(FractureOutput& output, const Session& session) {
   if (session.figures_only) {
-    program.fracture.output.figures_only = true;
-    program.fracture.output.tips.clear();
+    output.figures_only = true;
+    output.tips.clear();
   }
-  if (session.places) program.fracture.output.places = *session.places;
+  if (session.places) output.places = *session.places;
+}
+
+void warn_of_model(const FractureRun& run, const Mesh& mesh, const Session& session) {
+  warn_of_interfaces(run, session.log);
+  if (session.figures_only) return;
+  if (const auto words = bending_warning(mesh, run.model())) session.log.say(*words);
+  for (const std::string& warning : stiffness_warnings(mesh, run.model())) session.log.warn(warning);
+}
+
+/// Files that stand beside the results from the start: mesh, log and case.
+void begin_files(const FractureProgram& program, const Mesh& mesh, const FractureResults& results,
+                 const std::optional<FractureState>& last, Session& session) {
+  if (!session.figures_only) write_mesh(results.folder(), mesh);
+  session.log.open_file(results.folder() / "run.log", last.has_value());
+  if (session.restart)
+    session.log.say(last ? fmt::format("continuing after step {}, load {:.6g}", last->step, last->load)
+                         : "no checkpoint found: starting from the beginning");
+  else if (results.wait())
+    say_what_is_replaced(session, program.file, program.hash, true);
+  if (!session.figures_only) keep_case(program.file, session.version, session.results, results.folder());
+}
+
+LiveCase live_case(const FractureProgram& program, const LiveCommands& commands) {
+  return {.fracture = program.fracture,
+          .experiment = program.experiment,
+          .file = program.file,
+          .title = fmt::format("{}: {}", program.name, program.fracture.title),
+          .command = commands.command,
+          .report = commands.report};
+}
+
+void run_case(FractureProgram program, Session& session) {
+  adapt_output(program.fracture.output, session);
   session.log.say(head_line(session, fmt::format("case {}: {}", program.name, program.fracture.title)));
   RunTimes times;
   MeshStore own_mesh;
   const Mesh& mesh = find_mesh(program, session.meshes ? *session.meshes : own_mesh, session.log);
   times.mesh = times.whole.seconds();
   FractureRun run = made_run(program, mesh, session.log);
-  warn_of_interfaces(run, session.log);
-  if (!session.figures_only) {
-    if (const auto words = bending_warning(mesh, run.model())) session.log.say(*words);
-    for (const std::string& warning : stiffness_warnings(mesh, run.model())) session.log.warn(warning);
-  }
+  warn_of_model(run, mesh, session);
   const FractureState initial = run.initial_state();
   const std::vector<ColumnSet> surfaces = column_sets(program.fracture.cohesive, mesh, run.model());
   const std::vector<ColumnSet> none, &columns = session.figures_only ? none : surfaces;
@@ -104,14 +134,7 @@ void run_case(FractureProgram program, Session& session) {
     return;
   }
   FractureResults results(session.results, mesh, run.model(), program.fracture, columns, watch, program.hash, last);
-  if (!session.figures_only) write_mesh(results.folder(), mesh);
-  session.log.open_file(results.folder() / "run.log", last.has_value());
-  if (session.restart)
-    session.log.say(last ? fmt::format("continuing after step {}, load {:.6g}", last->step, last->load)
-                         : "no checkpoint found: starting from the beginning");
-  else if (results.wait())
-    say_what_is_replaced(session, program.file, program.hash, true);
-  if (!session.figures_only) keep_case(program.file, session.version, session.results, results.folder());
+  begin_files(program, mesh, results, last, session);
   RunningCase running{program,
                       session,
                       times,
@@ -122,14 +145,7 @@ void run_case(FractureProgram program, Session& session) {
                       FollowedRows(session.curve_to),
                       last ? *last : initial,
                       last.has_value()};
-  if (session.live)
-    running.live.emplace(LiveCase{.fracture = program.fracture,
-                                  .experiment = program.experiment,
-                                  .file = program.file,
-                                  .title = fmt::format("{}: {}", program.name, program.fracture.title),
-                                  .command = session.live->command,
-                                  .report = session.live->report},
-                         session);
+  if (session.live) running.live.emplace(live_case(program, *session.live), session);
   running.followed.write(curve_header() + "\n");
   solve(running);
 }

@@ -170,6 +170,15 @@ OwnFindings own_findings(const std::vector<FitSuspect>& suspects) {
   return {.kind = "plate", .json = json_line(nlohmann::ordered_json{{"suspects", list}})};
 }
 
+void write_fitted_case(const PlateProgram& program, const std::vector<double>& values, const Session& session) {
+  std::vector<CaseParameter> parameters;
+  for (const CurveFitParameter& parameter : program.fit->parameters) parameters.push_back(parameter.in_case);
+  write_file(session.results / "case.fitted.toml",
+             fmt::format("# made by pfdm fit from the case {}: values that [[fit.parameters]] names are estimates\n",
+                         program.name) +
+                 moved(with_values(program.file, parameters, values), session.results));
+}
+
 }  // namespace
 
 std::string plate_fit_curve_file(const std::string& name) { return fmt::format("fit_{}.csv", name); }
@@ -207,12 +216,7 @@ void fit_plate(const PlateProgram& program, Session& session) {
   report.wall_seconds = watch.seconds();
   if (const auto residuals = model.residuals(model.with(first_guess(fit)))) report.found.first_rms = rms(*residuals);
   write_curves(session.results, fit, *first, fitted);
-  std::vector<CaseParameter> parameters;
-  for (const CurveFitParameter& parameter : fit.parameters) parameters.push_back(parameter.in_case);
-  write_file(session.results / "case.fitted.toml",
-             fmt::format("# made by pfdm fit from the case {}: values that [[fit.parameters]] names are estimates\n",
-                         program.name) +
-                 moved(with_values(program.file, parameters, result.values()), session.results));
+  write_fitted_case(program, result.values(), session);
   write_fit_json(session.results / fit_file, report);
   say(fit, report, session.log);
   session.log.say(fmt::format("{} evaluations, {:.1f} s; {}; written to {}", result.evaluations, report.wall_seconds,

@@ -46,7 +46,8 @@ const std::map<std::string_view, std::string>& classes() {
   return all;
 }
 
-const std::vector<UnitForm>& unit_forms() {
+/// Lengths, times, masses and what they make, angles and plain numbers.
+const std::vector<UnitForm>& forms_of_motion() {
   static const std::vector<UnitForm> all{
       {"m", {"{LENGTH}"}},
       {"m^2", {"{LENGTH}2", "{LENGTH} {LENGTH}"}},
@@ -62,6 +63,15 @@ const std::vector<UnitForm>& unit_forms() {
        {"{GRAVITY}2/{FREQUENCY}", "{LENGTH}2/{TIME}4/{FREQUENCY}", "{LENGTH}2/{TIME}3",
         "({LENGTH}/{TIME}2)2/{FREQUENCY}"}},
       {"kg/m^3", {"{MASS}/{LENGTH}3", "{MASS} {LENGTH}-3", "{MASS}/{VOLUME}"}},
+      {"radian", {"{ANGLE}"}},
+      {"1", {"{NONE}", "{LENGTH}/{LENGTH}"}},
+  };
+  return all;
+}
+
+/// Forces, stresses, energies, stiffnesses.
+const std::vector<UnitForm>& forms_of_forces() {
+  static const std::vector<UnitForm> all{
       {"N", {"{FORCE}", "{MASS} {LENGTH}/{TIME}2", "{ENERGY}/{LENGTH}"}},
       {"m/N", {"{LENGTH}/{FORCE}", "{LENGTH} {FORCE}-1"}},
       {"J", {"{ENERGY}", "{FORCE} {LENGTH}", "{POWER} {TIME}", "{PRESSURE} {LENGTH}3"}},
@@ -70,20 +80,7 @@ const std::vector<UnitForm>& unit_forms() {
       {"J/m^2",
        {"{ENERGY}/{LENGTH}2", "{ENERGY} {LENGTH}-2", "{FORCE}/{LENGTH}", "{FORCE} {LENGTH}-1", "{PRESSURE} {LENGTH}"}},
       {"J/m^3", {"{ENERGY}/{LENGTH}3", "{ENERGY} {LENGTH}-3", "{PRESSURE}", "{FORCE}/{LENGTH}2", "{FORCE} {LENGTH}-2"}},
-      {"J/mol", {"{ENERGY}/{AMOUNT}", "{ENERGY} {AMOUNT}-1"}},
-      {"W/m^2", {"{POWER}/{LENGTH}2", "{POWER} {LENGTH}-2"}},
       {"Pa/m", {"{PRESSURE}/{LENGTH}", "{PRESSURE} {LENGTH}-1", "{FORCE}/{LENGTH}3", "{FORCE}/{LENGTH}2/{LENGTH}"}},
-      {dimension::temperature_difference.name, {"{KELVIN}"}},
-      {"K", {"{TEMPERATURE}"}},
-      {"radian", {"{ANGLE}"}},
-      {"1", {"{NONE}", "{LENGTH}/{LENGTH}"}},
-      {"W/m/K",
-       {"{POWER}/{LENGTH}/{DIFFERENCE}", "{POWER}/({LENGTH} {DIFFERENCE})", "{POWER} {LENGTH}-1 {DIFFERENCE}-1"}},
-      {"J/kg/K",
-       {"{ENERGY}/{MASS}/{DIFFERENCE}", "{ENERGY}/({MASS} {DIFFERENCE})", "{ENERGY} {MASS}-1 {DIFFERENCE}-1"}},
-      {"W/m^2/K",
-       {"{POWER}/{LENGTH}2/{DIFFERENCE}", "{POWER}/({LENGTH}2 {DIFFERENCE})", "{POWER} {LENGTH}-2 {DIFFERENCE}-1"}},
-      {"1/K", {"1/{DIFFERENCE}", "{DIFFERENCE}-1", "{NONE}/{DIFFERENCE}"}},
       {"N/m^3", {"{FORCE}/{LENGTH}3", "{FORCE} {LENGTH}-3", "{PRESSURE}/{LENGTH}"}},
       {"N/m", {"{FORCE}/{LENGTH}", "{FORCE} {LENGTH}-1"}},
       {"N/m^2", {"{FORCE}/{LENGTH}2", "{PRESSURE}"}},
@@ -95,6 +92,32 @@ const std::vector<UnitForm>& unit_forms() {
       {"N/m/s", {"{FORCE}/{LENGTH}/{TIME}", "{FORCE}/({LENGTH} {TIME})"}},
   };
   return all;
+}
+
+/// Differences of temperature before temperatures, whose SI unit is the same.
+const std::vector<UnitForm>& forms_of_heat() {
+  static const std::vector<UnitForm> all{
+      {"J/mol", {"{ENERGY}/{AMOUNT}", "{ENERGY} {AMOUNT}-1"}},
+      {"W/m^2", {"{POWER}/{LENGTH}2", "{POWER} {LENGTH}-2"}},
+      {dimension::temperature_difference.name, {"{KELVIN}"}},
+      {"K", {"{TEMPERATURE}"}},
+      {"W/m/K",
+       {"{POWER}/{LENGTH}/{DIFFERENCE}", "{POWER}/({LENGTH} {DIFFERENCE})", "{POWER} {LENGTH}-1 {DIFFERENCE}-1"}},
+      {"J/kg/K",
+       {"{ENERGY}/{MASS}/{DIFFERENCE}", "{ENERGY}/({MASS} {DIFFERENCE})", "{ENERGY} {MASS}-1 {DIFFERENCE}-1"}},
+      {"W/m^2/K",
+       {"{POWER}/{LENGTH}2/{DIFFERENCE}", "{POWER}/({LENGTH}2 {DIFFERENCE})", "{POWER} {LENGTH}-2 {DIFFERENCE}-1"}},
+      {"1/K", {"1/{DIFFERENCE}", "{DIFFERENCE}-1", "{NONE}/{DIFFERENCE}"}},
+  };
+  return all;
+}
+
+/// Null of a dimension whose units are not listed.
+const UnitForm* forms_of(const Dimension& due) {
+  for (const auto* group : {&forms_of_motion(), &forms_of_forces(), &forms_of_heat()})
+    for (const UnitForm& known : *group)
+      if (known.dimension == due.si_unit || known.dimension == due.name) return &known;
+  return nullptr;
 }
 
 std::string exponent_pattern(std::string_view digits) { return "(?:\\^|\\*\\*)?" + std::string(digits); }
@@ -127,13 +150,11 @@ std::string pattern_of_form(std::string_view form) {
 }  // namespace
 
 std::string unit_pattern(const Dimension& due) {
-  for (const UnitForm& known : unit_forms()) {
-    if (known.dimension != due.si_unit && known.dimension != due.name) continue;
-    std::string all;
-    for (const std::string_view form : known.forms) all += (all.empty() ? "" : "|") + pattern_of_form(form);
-    return "(?:" + all + ")";
-  }
-  return ".+";
+  const UnitForm* const known = forms_of(due);
+  if (known == nullptr) return ".+";
+  std::string all;
+  for (const std::string_view form : known->forms) all += (all.empty() ? "" : "|") + pattern_of_form(form);
+  return "(?:" + all + ")";
 }
 
 std::string quantity_pattern(const Dimension& due, const Range& allowed) {

@@ -166,12 +166,34 @@ std::string comment_of(bool is_known, bool is_allowed) {
                     : "lower, upper: 95 % intervals, to first order in the estimates";
 }
 
+/// Moduli over frequency, and the ends of their intervals.
+struct BandColumns {
+  std::array<std::vector<double>, 4> estimate, lower, upper;
+
+  void add(const Moduli& at, const Ends& ends) {
+    for (std::size_t m = 0; m < at.size(); ++m) {
+      estimate[m].push_back(at[m]);
+      lower[m].push_back(ends.lower[m]);
+      upper[m].push_back(ends.upper[m]);
+    }
+  }
+
+  void put_into(CsvTable& table, bool with_intervals) {
+    constexpr std::array names{"young_storage_modulus", "young_loss_modulus", "shear_storage_modulus",
+                               "shear_loss_modulus"};
+    for (std::size_t m = 0; m < names.size(); ++m) {
+      table.add(fmt::format("{}_Pa", names[m]), std::move(estimate[m]));
+      if (!with_intervals) continue;
+      table.add(fmt::format("lower_{}_Pa", names[m]), std::move(lower[m]));
+      table.add(fmt::format("upper_{}_Pa", names[m]), std::move(upper[m]));
+    }
+  }
+};
+
 }  // namespace
 
 ModulusBand modulus_band(const ViscoelasticFit& fit, const FitFindings& findings,
                          const ViscoelasticExperiments& experiments, std::span<const double> deviations) {
-  constexpr std::array names{"young_storage_modulus", "young_loss_modulus", "shear_storage_modulus",
-                             "shear_loss_modulus"};
   const std::vector<double> frequencies = frequencies_in(time_window(experiments));
   const double allowance = allowance_of(fit, findings);
   std::optional<AllowedSpectra> spectra;
@@ -179,7 +201,7 @@ ModulusBand modulus_band(const ViscoelasticFit& fit, const FitFindings& findings
   const bool is_lost = spectra && !spectra->is_least();
   if (is_lost) spectra.reset();
   const auto reaches = spectra || is_lost ? std::nullopt : reaches_of(findings);
-  std::array<std::vector<double>, 4> estimate, lower, upper;
+  BandColumns columns;
   Outside outside;
   for (const double f : frequencies) {
     const double w = 2.0 * std::numbers::pi * f;
@@ -191,11 +213,7 @@ ModulusBand modulus_band(const ViscoelasticFit& fit, const FitFindings& findings
     } else if (reaches) {
       ends = to_first_order(fit, *reaches, findings.correlation, w);
     }
-    for (std::size_t m = 0; m < at.size(); ++m) {
-      estimate[m].push_back(at[m]);
-      lower[m].push_back(ends.lower[m]);
-      upper[m].push_back(ends.upper[m]);
-    }
+    columns.add(at, ends);
   }
   ModulusBand band;
   band.warning =
@@ -206,12 +224,7 @@ ModulusBand modulus_band(const ViscoelasticFit& fit, const FitFindings& findings
   band.table.comments.emplace_back("complex moduli of the fitted law in the window of the data");
   band.table.comments.push_back(comment_of(spectra || reaches, spectra.has_value()));
   band.table.add("frequency_Hz", frequencies);
-  for (std::size_t m = 0; m < names.size(); ++m) {
-    band.table.add(fmt::format("{}_Pa", names[m]), std::move(estimate[m]));
-    if (!spectra && !reaches) continue;
-    band.table.add(fmt::format("lower_{}_Pa", names[m]), std::move(lower[m]));
-    band.table.add(fmt::format("upper_{}_Pa", names[m]), std::move(upper[m]));
-  }
+  columns.put_into(band.table, spectra || reaches);
   return band;
 }
 

@@ -95,28 +95,15 @@ py::dict motion_by_excitation(const MassMaterialCase& c, const std::string& toml
 
 double omega_of(double frequency) { return 2.0 * std::numbers::pi * frequency; }
 
-}  // namespace
-
-void define_mass_material(py::module_& module) {
+/// Values of the model's functions, of arrays.
+void define_functions(py::class_<MassMaterialCase>& of) {
   using Model = MassMaterialCase;
-  py::class_<Model>(module, "MassMaterial")
-      .def_static("from_text", &model_of_text, py::arg("toml"))
-      .def_static("from_case", &model_of_case, py::arg("where"), py::arg("values"))
-      .def_readonly("structure", &Model::structure)
-      .def_property_readonly("mass", [](const Model& c) { return c.model.mass; })
-      .def_property_readonly("stiffness", [](const Model& c) { return copy_of(c.model.stiffness); })
-      .def_property_readonly("damping", [](const Model& c) { return c.model.damping; })
-      .def_property_readonly("static_stiffness", [](const Model& c) { return static_stiffness(c.model); })
-      .def("text", [](const Model& c) { return model_text(c.structure, c.model); })
-      .def(
-          "settling_point", [](const Model& c, double gravity) { return static_settling_point(c.model, gravity); },
-          py::arg("gravity"))
-      .def(
-          "stiffness_force",
-          [](const Model& c, const py::array_t<double>& z) {
-            return py::vectorize([&c](double at) { return stiffness_force(c.model, at); })(z);
-          },
-          py::arg("displacement"))
+  of.def(
+        "stiffness_force",
+        [](const Model& c, const py::array_t<double>& z) {
+          return py::vectorize([&c](double at) { return stiffness_force(c.model, at); })(z);
+        },
+        py::arg("displacement"))
       .def(
           "damping_force",
           [](const Model& c, const py::array_t<double>& v) {
@@ -135,11 +122,30 @@ void define_mass_material(py::module_& module) {
             return py::vectorize(
                 [&c, velocity](double at) { return complex_stiffness(c.model, omega_of(at), velocity); })(frequency);
           },
-          py::arg("frequency"), py::arg("velocity"))
+          py::arg("frequency"), py::arg("velocity"));
+}
+
+}  // namespace
+
+void define_mass_material(py::module_& module) {
+  using Model = MassMaterialCase;
+  py::class_<Model> of(module, "MassMaterial");
+  of.def_static("from_text", &model_of_text, py::arg("toml"))
+      .def_static("from_case", &model_of_case, py::arg("where"), py::arg("values"))
+      .def_readonly("structure", &Model::structure)
+      .def_property_readonly("mass", [](const Model& c) { return c.model.mass; })
+      .def_property_readonly("stiffness", [](const Model& c) { return copy_of(c.model.stiffness); })
+      .def_property_readonly("damping", [](const Model& c) { return c.model.damping; })
+      .def_property_readonly("static_stiffness", [](const Model& c) { return static_stiffness(c.model); })
+      .def("text", [](const Model& c) { return model_text(c.structure, c.model); })
+      .def(
+          "settling_point", [](const Model& c, double gravity) { return static_settling_point(c.model, gravity); },
+          py::arg("gravity"))
       .def("respond", &motion_by_record, py::arg("base"), py::arg("base_rate"), py::arg("low"), py::arg("high"),
            py::arg("rate"), py::arg("tolerance"))
       .def("respond_to", &motion_by_excitation, py::arg("toml"), py::arg("directory"), py::arg("rate"),
            py::arg("tolerance"));
+  define_functions(of);
 }
 
 }  // namespace pfdm

@@ -71,15 +71,112 @@ double target_of(const MomentumSolver::Tolerance& tolerance, double initial) {
   return std::max(tolerance.floor, std::min(tolerance.ceiling, tolerance.reduction * initial));
 }
 
-// Halves a step while it turns a sound cell inside out.
-void shorten(const std::vector<Vector>& from, const CellLaws& cells, MomentumSolver& momentum, std::vector<Vector>& u) {
-  constexpr int most_halvings = 8;
-  cells();
-  for (int k = 0; k < most_halvings && inverts(momentum.balance()); ++k) {
-    parallel_for(count_of(u), [&](Index i) { u[i] = 0.5 * (from[i] + u[i]); });
-    cells();
+/// Newton's iteration for the equilibrium with the laws of the faces at the load t; u is moved.
+class FacesNewton {
+ public:
+  FacesNewton(const CohesiveFaces& faces, const std::vector<InterfaceHistory>& before, double t,
+              const MomentumSolver::Tolerance& tolerance, const CellLaws& cells, MomentumSolver& momentum,
+              std::vector<Vector>& u, std::vector<InterfaceHistory>& after)
+      : faces_(faces),
+        before_(before),
+        t_(t),
+        tolerance_(tolerance),
+        cells_(cells),
+        momentum_(momentum),
+        u_(u),
+        after_(after),
+        way_out_(u),
+        has_rate_(faces.has_rate_laws()) {}
+
+  Equilibrium solve(const BalanceWatch& watch) {
+    momentum_.set_held_forces(faces_.branch_forces(before_));
+    const Index most = cells_ ? most_finite_solves : most_solves;
+    double last = std::numeric_limits<double>::infinity();
+    for (Index k = 0; k < most; ++k) {
+      const Equilibrium step = take_step(k, watch);
+      const double residual = step.initial_residual;  // at the u that the step began with
+      note(step, k == 0);
+      if (whole_.converged && has_rate_) return without_last_step();  // the overstresses belong to it
+      if (whole_.converged || !std::isfinite(step.residual)) return whole_;
+      const bool solved = step.residual < bearable_rest * residual;
+      if (residual <= tolerance_.good_enough && !(solved && residual < falls * last)) return without_last_step();
+      if (!has_rate_ && (way_out_.is_marching() || residual > falls * last)) settle();
+      last = residual;
+      way_ = way_out_.next(residual, solved, u_);
+      if (cells_) cells_();
+    }
+    if (has_rate_) settle();
+    if (cells_) whole_.residual = std::numeric_limits<double>::infinity();
+    return whole_;
   }
-}
+
+ private:
+  void settle() { faces_.settle(before_, momentum_.balance(), u_, after_); }
+
+  // One linear solve. The residual at its start is that of the true laws; at finite strain to the second order in what
+  // `settle` moves.
+  Equilibrium take_step(Index k, const BalanceWatch& watch) {
+    const bool newton = way_ == CohesiveFaces::Way::tangent;
+    if (has_rate_) {
+      momentum_.balance().prescribe(t_, u_);
+      settle();
+    }
+    if (has_rate_ || cells_ || tolerance_.good_enough > 0.0) from_ = u_;
+    faces_.linearise(u_, before_, after_, way_, momentum_);
+    if (watch && k > 0) watch(k, whole_.residual);
+    const Equilibrium step =
+        momentum_.solve(t_,
+                        {.reduction = newton ? linear_reduction : convex_reduction,
+                         .ceiling = 1.0,
+                         .floor = 0.5 * target_,
+                         .most_iterations = newton ? most_newton_iterations : tolerance_.most_iterations,
+                         .whole_cycle = !newton},
+                        u_);
+    if (cells_) shorten();
+    return step;
+  }
+
+  // Halves a step while it turns a sound cell inside out.
+  void shorten() {
+    constexpr int most_halvings = 8;
+    cells_();
+    for (int k = 0; k < most_halvings && inverts(momentum_.balance()); ++k) {
+      parallel_for(count_of(u_), [&](Index i) { u_[i] = 0.5 * (from_[i] + u_[i]); });
+      cells_();
+    }
+  }
+
+  void note(const Equilibrium& step, bool is_first) {
+    whole_.iterations += step.iterations;
+    whole_.residual = step.initial_residual;
+    if (is_first) {
+      whole_.initial_residual = step.initial_residual;
+      target_ = target_of(tolerance_, step.initial_residual);
+    }
+    whole_.converged = step.initial_residual <= target_;
+  }
+
+  Equilibrium without_last_step() {
+    u_ = std::move(from_);
+    if (cells_) cells_();
+    return whole_;
+  }
+
+  const CohesiveFaces& faces_;
+  const std::vector<InterfaceHistory>& before_;
+  double t_;
+  const MomentumSolver::Tolerance& tolerance_;
+  const CellLaws& cells_;
+  MomentumSolver& momentum_;
+  std::vector<Vector>& u_;
+  std::vector<InterfaceHistory>& after_;
+  WayOut way_out_;
+  bool has_rate_;             // steep where faces begin to move
+  std::vector<Vector> from_;  // before the step
+  CohesiveFaces::Way way_ = CohesiveFaces::Way::tangent;
+  double target_ = 0.0;  // of the residual
+  Equilibrium whole_{.converged = false, .iterations = 0, .initial_residual = 0.0, .residual = 0.0};
+};
 
 }  // namespace
 
@@ -87,62 +184,7 @@ Equilibrium solve_with_faces(const CohesiveFaces& faces, const std::vector<Inter
                              const MomentumSolver::Tolerance& tolerance, const CellLaws& cells,
                              MomentumSolver& momentum, std::vector<Vector>& u, std::vector<InterfaceHistory>& after,
                              const BalanceWatch& watch) {
-  Equilibrium whole{.converged = false, .iterations = 0, .initial_residual = 0.0, .residual = 0.0};
-  double target = 0.0, last = std::numeric_limits<double>::infinity();
-  WayOut way_out(u);
-  std::vector<Vector> from;  // before the step
-  CohesiveFaces::Way way = CohesiveFaces::Way::tangent;
-  const bool has_rate = faces.has_rate_laws();  // steep where faces begin to move
-  momentum.set_held_forces(faces.branch_forces(before));
-  const Index most = cells ? most_finite_solves : most_solves;
-  for (Index k = 0; k < most; ++k) {
-    // The residual at the start of a solve is that of the true laws; at finite strain to the second order in what
-    // `settle` moves.
-    const bool newton = way == CohesiveFaces::Way::tangent;
-    if (has_rate) {
-      momentum.balance().prescribe(t, u);
-      faces.settle(before, momentum.balance(), u, after);
-    }
-    if (has_rate || cells || tolerance.good_enough > 0.0) from = u;
-    faces.linearise(u, before, after, way, momentum);
-    if (watch && k > 0) watch(k, whole.residual);
-    const Equilibrium step =
-        momentum.solve(t,
-                       {.reduction = newton ? linear_reduction : convex_reduction,
-                        .ceiling = 1.0,
-                        .floor = 0.5 * target,
-                        .most_iterations = newton ? most_newton_iterations : tolerance.most_iterations,
-                        .whole_cycle = !newton},
-                       u);
-    if (cells) shorten(from, cells, momentum, u);
-    whole.iterations += step.iterations;
-    whole.residual = step.initial_residual;
-    if (k == 0) {
-      whole.initial_residual = step.initial_residual;
-      target = target_of(tolerance, step.initial_residual);
-    }
-    whole.converged = step.initial_residual <= target;
-    if (whole.converged && has_rate) {  // the overstresses belong to it
-      u = std::move(from);
-      if (cells) cells();
-      return whole;
-    }
-    if (whole.converged || !std::isfinite(step.residual)) return whole;
-    const bool solved = step.residual < bearable_rest * step.initial_residual;
-    if (step.initial_residual <= tolerance.good_enough && !(solved && step.initial_residual < falls * last)) {
-      u = std::move(from);
-      if (cells) cells();
-      return whole;
-    }
-    if (!has_rate && (way_out.is_marching() || step.initial_residual > falls * last))
-      faces.settle(before, momentum.balance(), u, after);
-    last = step.initial_residual;
-    way = way_out.next(step.initial_residual, solved, u);
-    if (cells) cells();
-  }
-  if (has_rate) faces.settle(before, momentum.balance(), u, after);
-  if (cells) whole.residual = std::numeric_limits<double>::infinity();
-  return whole;
+  return FacesNewton(faces, before, t, tolerance, cells, momentum, u, after).solve(watch);
 }
 
 namespace {

@@ -169,6 +169,38 @@ GivenLaw law_of_case(const InterfaceSettings& interface, const std::string& name
   return given;
 }
 
+CohesiveReport report_of(const FractureCase& fracture, const std::string& name, const std::string& hash,
+                         const Session& session) {
+  CohesiveReport report{.case_name = name,
+                        .case_hash = hash,
+                        .version = session.version,
+                        .records = read_column_record(session.results, hash),
+                        .results = {},
+                        .curve = read_curve_record(session.results, hash),
+                        .component = fracture.output.curve.component};
+  for (const ColumnRecord& record : report.records) {
+    report.results.push_back(evaluate(record));
+    report.shear_ratios.push_back(shear_ratio_of(fracture, record));
+    const auto given = std::ranges::find(fracture.interfaces, record.name, &InterfaceSettings::name);
+    report.given.push_back(
+        record.is_cohesive && given != fracture.interfaces.end() ? std::optional(given_figures(*given)) : std::nullopt);
+  }
+  return report;
+}
+
+void say_laws(const CohesiveReport& report, const Session& session, bool in_run) {
+  for (std::size_t r = 0; r < report.records.size(); ++r) {
+    const ColumnRecord& record = report.records[r];
+    session.log.say(fmt::format("{} \"{}\", {}", record.is_cohesive ? "cohesive interface" : "cohesive law of",
+                                record.name, extent_of(record)));
+    if (record.is_cohesive) continue;
+    for (const CohesiveResult& result : report.results[r]) {
+      const std::string line = words_of_law(result, record.kind);
+      in_run ? session.log.record(line) : session.log.say(line);
+    }
+  }
+}
+
 }  // namespace
 
 void write_cohesive_laws(const FractureCase& fracture, const CaseFile& file, const std::string& name,
@@ -189,31 +221,9 @@ void write_cohesive_laws(const FractureCase& fracture, const CaseFile& file, con
         "gives: --export FORMAT writes one for another code",
         name));
   }
-  CohesiveReport report{.case_name = name,
-                        .case_hash = hash,
-                        .version = session.version,
-                        .records = read_column_record(session.results, hash),
-                        .results = {},
-                        .curve = read_curve_record(session.results, hash),
-                        .component = fracture.output.curve.component};
-  for (const ColumnRecord& record : report.records) {
-    report.results.push_back(evaluate(record));
-    report.shear_ratios.push_back(shear_ratio_of(fracture, record));
-    const auto given = std::ranges::find(fracture.interfaces, record.name, &InterfaceSettings::name);
-    report.given.push_back(
-        record.is_cohesive && given != fracture.interfaces.end() ? std::optional(given_figures(*given)) : std::nullopt);
-  }
+  const CohesiveReport report = report_of(fracture, name, hash, session);
   write_cohesive_results(session.results, report);
-  for (std::size_t r = 0; r < report.records.size(); ++r) {
-    const ColumnRecord& record = report.records[r];
-    session.log.say(fmt::format("{} \"{}\", {}", record.is_cohesive ? "cohesive interface" : "cohesive law of",
-                                record.name, extent_of(record)));
-    if (record.is_cohesive) continue;
-    for (const CohesiveResult& result : report.results[r]) {
-      const std::string line = words_of_law(result, record.kind);
-      in_run ? session.log.record(line) : session.log.say(line);
-    }
-  }
+  say_laws(report, session, in_run);
   session.log.say(fmt::format("written to {}", (session.results / "cohesive.json").string()));
   if (wanted) write_law(*wanted, law_to_export(report, wanted->choice), session);
 }

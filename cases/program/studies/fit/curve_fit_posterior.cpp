@@ -88,6 +88,35 @@ CsvTable table_of(const ModelDiscrepancy& discrepancy, const std::string& name) 
   return table;
 }
 
+/// Of law number `law`: that of the estimates, and quantiles of those drawn.
+CsvTable table_of_law(const LawOfCase& fitted, const std::vector<std::vector<LawOfCase>>& drawn, std::size_t law) {
+  constexpr std::size_t n_separations = 200;
+  constexpr double beyond_end = 1.15;
+  CsvTable table;
+  table.comments.push_back(
+      fmt::format("law of \"{}\" in opening: of the estimates, and quantiles over {} samples of the "
+                  "posterior at each separation",
+                  fitted.name, drawn.size()));
+  std::vector<double> x, estimate, lower, median, upper;
+  for (std::size_t i = 0; i <= n_separations; ++i) {
+    x.push_back(beyond_end * fitted.end * std::pow(double(i) / double(n_separations), 2.0));
+    estimate.push_back(fitted.traction(x.back()));
+    std::vector<double> values;
+    values.reserve(drawn.size());
+    for (const std::vector<LawOfCase>& laws : drawn) values.push_back(laws[law].traction(x.back()));
+    const SampledInterval interval = interval_of(values);
+    lower.push_back(interval.lower);
+    median.push_back(interval.median);
+    upper.push_back(interval.upper);
+  }
+  table.add("separation_m", std::move(x));
+  table.add("traction_Pa", std::move(estimate));
+  table.add("median_traction_Pa", std::move(median));
+  table.add("lower_traction_Pa", std::move(lower));
+  table.add("upper_traction_Pa", std::move(upper));
+  return table;
+}
+
 }  // namespace
 
 void CurveFit::add_posterior(const DoneStage& done, FitFindings& found) {
@@ -118,8 +147,7 @@ void CurveFit::add_posterior(const DoneStage& done, FitFindings& found) {
 std::vector<std::string> CurveFit::add_law_bands(const CurveFitStage& stage,
                                                  const std::vector<std::vector<double>>& samples,
                                                  std::vector<std::string>& warnings) {
-  constexpr std::size_t n_laws = 1000, n_separations = 200;
-  constexpr double beyond_end = 1.15;
+  constexpr std::size_t n_laws = 1000;
   if (!job_.laws) return {};
   const std::vector<LawOfCase> fitted = job_.laws(with_values(job_.file, parameters_, values_));
   if (fitted.empty()) return {};
@@ -136,30 +164,8 @@ std::vector<std::string> CurveFit::add_law_bands(const CurveFitStage& stage,
   if (drawn.empty()) return {};
   std::vector<std::string> files;
   for (std::size_t law = 0; law < fitted.size(); ++law) {
-    CsvTable table;
-    table.comments.push_back(
-        fmt::format("law of \"{}\" in opening: of the estimates, and quantiles over {} samples of the "
-                    "posterior at each separation",
-                    fitted[law].name, drawn.size()));
-    std::vector<double> x, estimate, lower, median, upper;
-    for (std::size_t i = 0; i <= n_separations; ++i) {
-      x.push_back(beyond_end * fitted[law].end * std::pow(double(i) / double(n_separations), 2.0));
-      estimate.push_back(fitted[law].traction(x.back()));
-      std::vector<double> values;
-      values.reserve(drawn.size());
-      for (const std::vector<LawOfCase>& laws : drawn) values.push_back(laws[law].traction(x.back()));
-      const SampledInterval interval = interval_of(values);
-      lower.push_back(interval.lower);
-      median.push_back(interval.median);
-      upper.push_back(interval.upper);
-    }
-    table.add("separation_m", std::move(x));
-    table.add("traction_Pa", std::move(estimate));
-    table.add("median_traction_Pa", std::move(median));
-    table.add("lower_traction_Pa", std::move(lower));
-    table.add("upper_traction_Pa", std::move(upper));
     files.push_back(fmt::format("fit_law_{}.csv", law));
-    tables_[files.back()] = std::move(table);
+    tables_[files.back()] = table_of_law(fitted[law], drawn, law);
   }
   return files;
 }
