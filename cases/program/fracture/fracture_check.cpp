@@ -10,11 +10,11 @@
 #include "postproc/curves/event_rows.h"
 #include "postproc/displacements/field_residuals.h"
 #include "postproc/files/folder_lock.h"
-#include "solver/fracture/bending_words.h"
 #include "solver/fracture/fracture_run.h"
 #include "solver/fracture/rate_resolution.h"
-#include "solver/fracture/resolution.h"
-#include "solver/fracture/stiffness_words.h"
+#include "solver/fracture/words/bending_words.h"
+#include "solver/fracture/words/resolution.h"
+#include "solver/fracture/words/stiffness_words.h"
 
 #include <fmt/format.h>
 

@@ -24,10 +24,9 @@
 #include "cases/program/studies/fit/curve_fit.h"
 #include "postproc/files/folder_lock.h"
 #include "postproc/files/other_case.h"
-#include "solver/fracture/bending_words.h"
 #include "solver/fracture/fracture_run.h"
-#include "solver/fracture/resolution.h"
-#include "solver/fracture/stiffness_words.h"
+#include "solver/fracture/words/bending_words.h"
+#include "solver/fracture/words/stiffness_words.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "solver/fracture/bending_words.h"
+#include "solver/fracture/words/bending_words.h"
 
 #include "physics/quantity_text.h"
 #include "solver/momentum/bending/bending_layers.h"
@@ -14,7 +14,7 @@
 namespace pfdm {
 namespace {
 
-constexpr double bearable = 0.03;
+constexpr double bearable_bending = 0.03;
 constexpr double layers_for_it = 10.0;  // even ones of one material: (3 - 2/n)/n^2 is then 2.8 %
 
 // Whether plane meshes fit cubics; else they have lines of cells, and prisms gradients of one ring.
@@ -35,7 +35,7 @@ std::string words_on_thin(const BendingError& worst) {
       "third; one is {} thick). For {:.0f} %: {} cells across each material ([mesh])",
       is_lone ? "one cell" : "two cells", 100.0 * (is_lone ? stack.lone : stack.beside + stack.between),
       by_cubics ? "0.9" : (is_lone ? "0.65" : "0.06, between other materials 0.14,"),
-      length_words(stack.thinnest_thickness, 3), 100.0 * bearable, by_cubics ? "two" : "three");
+      length_words(stack.thinnest_thickness, 3), 100.0 * bearable_bending, by_cubics ? "two" : "three");
 }
 
 // Words on the worst error, its reason and its remedy.
@@ -50,14 +50,14 @@ std::string words_on(const BendingError& worst, bool is_about_axis) {
                                     "cells as far as they bend along the radius",
                                     100.0 * at.lack_of_one_ring(nu), 100.0 * at.excess_of_one_ring(nu))
                       : fmt::format("measured within {}", at.stack.n_materials > 1 ? "a factor of two" : "a third"),
-        100.0 * bearable, std::ceil(layers_for_it * at.n / at.stack.even_layers() - 0.01),
-        length_words(at.stack.even_thickness * std::sqrt(bearable / (1.5 * (1.0 - nu))), 2));
+        100.0 * bearable_bending, std::ceil(layers_for_it * at.n / at.stack.even_layers() - 0.01),
+        length_words(at.stack.even_thickness * std::sqrt(bearable_bending / (1.5 * (1.0 - nu))), 2));
   if (worst.error < 0.0) return words_on_thin(worst);
   if (worst.by == BendBy::cubics)
     return fmt::format(
         "too high or too low (cells longer than the body is thick; the error grows with the cube of their length, "
         "within a factor of two). For {:.0f} %: cells up to {} long ([mesh])",
-        100.0 * bearable, length_words(at.length * std::cbrt(bearable / worst.error), 2));
+        100.0 * bearable_bending, length_words(at.length * std::cbrt(bearable_bending / worst.error), 2));
   if (at.excess_of_uneven() >= at.excess_of_lines(nu))
     return "too high (layers of uneven thickness, within a factor of two). For less: even layers ([mesh])";
   if (at.shear > 0.0)
@@ -70,7 +70,7 @@ std::string words_on(const BendingError& worst, bool is_about_axis) {
       "too high or, with an odd number of cells along, too low (cells longer than the body is thick: 0.05 "
       "(length/thickness - 1)^1.3 sqrt((1 - nu)/(1 - 2 nu)), within a factor of two). For {:.0f} %: cells up to {} "
       "long ([mesh])",
-      100.0 * bearable, length_words(1.3 * at.thickness, 2));
+      100.0 * bearable_bending, length_words(1.3 * at.thickness, 2));
 }
 
 std::string words_on_layers(const Mesh& mesh, Index cell, const BendingLayers& at, std::string_view cells) {
@@ -136,7 +136,7 @@ std::optional<Warned> warn_of_plane_prisms(const Mesh& mesh, std::vector<Slender
                  fmt::format("about {:.0f} % too low (materials of one layer have {:.0f} % of it about their own "
                              "middles, of which 0.5 length/thickness is missing, within a factor of three). For {:.0f} "
                              "%: two layers across each material ([mesh])",
-                             100.0 * lack, 100.0 * at->layers.stack.lone, 100.0 * bearable)};
+                             100.0 * lack, 100.0 * at->layers.stack.lone, 100.0 * bearable_bending)};
 }
 
 std::string warn_of_polygons(const Mesh& mesh, const SlenderLayers& at) {
@@ -148,7 +148,7 @@ std::string warn_of_polygons(const Mesh& mesh, const SlenderLayers& at) {
 
 std::optional<Warned> warn_of_hexahedra(const Mesh& mesh, const Unknowns& unknowns, BendBy by) {
   const auto worst = largest_bending_error(mesh, unknowns, by);
-  if (!worst || std::abs(worst->error) <= bearable) return std::nullopt;
+  if (!worst || std::abs(worst->error) <= bearable_bending) return std::nullopt;
   const bool is_rough = unknowns.is_axisymmetric() && worst->by == BendBy::one_ring;
   const bool is_thin = worst->by != BendBy::one_ring && worst->error < 0.0;
   return Warned{worst->error, words_on_layers(mesh, is_thin ? worst->layers.stack.thinnest : worst->cell, worst->layers,

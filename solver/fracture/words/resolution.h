@@ -27,26 +27,6 @@ struct ResolutionWords {
 ResolutionWords resolution_words(const Mesh& mesh, const FractureModel& model, std::span<const Band> bands,
                                  bool corrects_toughness);
 
-/// Cells in which a crack is not resolved, of regions of which others are fine enough.
-class CoarseCells {
- public:
-  CoarseCells(const Mesh& mesh, const FractureModel& model);
-  /// A warning for each region in which a crack (d > 0.5) has now entered cells that are too thick. Also for one in
-  /// which the damage of neighbours differs by more than 0.6, where it changes most: profiles are no steeper than
-  /// 1/ell. Neighbours are 0.6 ell apart at least in a crack of one or two hexahedra, 1.25 ell elsewhere, as at fronts
-  /// that run along bands. Each region is named once.
-  std::vector<std::string> look(const CellField<double>& damage);
-
- private:
-  bool is_narrow(Index cell, Index face, const CellField<double>& damage) const;
-  void look_at_neighbours(const CellField<double>& damage, std::vector<std::string>& warnings);
-
-  const Mesh& mesh_;
-  const FractureModel& model_;
-  std::vector<Index> cells_;
-  std::vector<bool> told_;  // region by region
-};
-
 /// Remark on regions of hexahedra in which cracks may choose a direction: the effect of the rows of cells on their
 /// direction and surface energy, and the remedy (measurements: tests/verification/log_crack_directions.md); empty:
 /// none.

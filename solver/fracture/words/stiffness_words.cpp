@@ -1,4 +1,4 @@
-#include "solver/fracture/stiffness_words.h"
+#include "solver/fracture/words/stiffness_words.h"
 
 #include "physics/quantity_text.h"
 #include "solver/fracture/model/relaxing_volume.h"

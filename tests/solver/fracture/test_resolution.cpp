@@ -1,7 +1,8 @@
 // How much of a crack's energy lies beyond a distance, by the closed profiles of broken bars.
 
 #include "mesh/generators/box_hexes.h"
-#include "solver/fracture/resolution.h"
+#include "solver/fracture/words/coarse_cells.h"
+#include "solver/fracture/words/resolution.h"
 
 #include <gtest/gtest.h>
 

@@ -4,8 +4,8 @@
 
 #include "physics/materials/j2_plasticity.h"
 #include "physics/materials/prony.h"
-#include "solver/fracture/bending_words.h"
 #include "solver/fracture/fracture_run.h"
+#include "solver/fracture/words/bending_words.h"
 #include "tests/verification/layers/cantilever.h"
 
 #include <fmt/format.h>

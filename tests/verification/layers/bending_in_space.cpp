@@ -1,7 +1,7 @@
 // Cantilevers in space, of few or long cells, against elements of high degree; laminates under a moment; what damage
 // does to their bending.
 
-#include "solver/fracture/bending_words.h"
+#include "solver/fracture/words/bending_words.h"
 #include "tests/verification/layers/cantilever.h"
 #include "tests/verification/support.h"
 

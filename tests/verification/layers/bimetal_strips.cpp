@@ -2,7 +2,7 @@
 
 #include "mesh/generators/sphere_sector.h"
 #include "physics/materials/hyperelastic.h"
-#include "solver/fracture/bending_words.h"
+#include "solver/fracture/words/bending_words.h"
 #include "tests/verification/bar.h"
 #include "tests/verification/layers/eigenstrain_bodies.h"
 #include "tests/verification/support.h"

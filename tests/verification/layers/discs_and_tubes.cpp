@@ -2,7 +2,7 @@
 // modulus of 1 Pa, tractions of 1 Pa; 32 x 8 differ by at most 0.05 %).
 
 #include "mesh/generators/cylinder_sector.h"
-#include "solver/fracture/bending_words.h"
+#include "solver/fracture/words/bending_words.h"
 #include "tests/verification/support.h"
 
 #include <fmt/format.h>

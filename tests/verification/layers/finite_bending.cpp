@@ -3,7 +3,7 @@
 // against elements of third and fourth degree, which agree to 2e-4 of the length; the limit of small strain; stretched
 // beams that are turned.
 
-#include "solver/fracture/bending_words.h"
+#include "solver/fracture/words/bending_words.h"
 #include "tests/verification/finite.h"
 
 #include <fmt/format.h>

@@ -2,7 +2,7 @@
 // much too soft coarse ones are, and what is said of it.
 
 #include "mesh/generators/cylinder_sector.h"
-#include "solver/fracture/stiffness_words.h"
+#include "solver/fracture/words/stiffness_words.h"
 #include "tests/verification/slender/cell_beams.h"
 #include "tests/verification/support.h"
 

@@ -1,7 +1,7 @@
 // Cantilevers of layers that differ in stiffness, in plane strain, 25 x 1.5 mm under a force at the end, against
 // quadratic elements (layered_elements.py): how wrong the bending of few or long cells is, and what is said of it.
 
-#include "solver/fracture/bending_words.h"
+#include "solver/fracture/words/bending_words.h"
 #include "tests/verification/layers/cantilever.h"
 #include "tests/verification/slender/cell_beams.h"
 #include "tests/verification/support.h"

@@ -1,7 +1,7 @@
 // Cantilevers in space of prisms, tetrahedra and polyhedra, which bend by gradients of one ring: what is said of their
 // errors. The sides across z are planes of symmetry, so that Timoshenko's beam is that in plane strain (cantilever.h).
 
-#include "solver/fracture/bending_words.h"
+#include "solver/fracture/words/bending_words.h"
 #include "solver/momentum/bending/slender_layers.h"
 #include "tests/verification/layers/cantilever.h"
 #include "tests/verification/slender/cell_beams.h"

@@ -1,6 +1,6 @@
 // Cantilevers of triangles in plane strain, whose prisms fit cubics, against Timoshenko's beam (cantilever.h).
 
-#include "solver/fracture/bending_words.h"
+#include "solver/fracture/words/bending_words.h"
 #include "tests/verification/layers/cantilever.h"
 #include "tests/verification/slender/cell_beams.h"
 #include "tests/verification/support.h"

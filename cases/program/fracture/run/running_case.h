@@ -10,7 +10,7 @@
 #include "cases/program/session/terminal/stopwatch.h"
 #include "cases/program/studies/fit/curve_fit.h"
 #include "solver/fracture/fracture_run.h"
-#include "solver/fracture/resolution.h"
+#include "solver/fracture/words/coarse_cells.h"
 
 #include <map>
 #include <optional>
