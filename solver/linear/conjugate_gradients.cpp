@@ -82,7 +82,7 @@ double ConjugateGradients::precondition(const std::vector<double>& r, std::vecto
           z[i] += sum * pivots_[i];
           product += r[i] * z[i];
         }
-        products[as_size(begin / factor_block)] = product;
+        products[begin / factor_block] = product;
       },
       factor_block);
   return std::accumulate(products.begin(), products.end(), 0.0);

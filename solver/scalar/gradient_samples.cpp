@@ -41,18 +41,18 @@ bool is_above(const Mesh& mesh, Index cell, Index other) {
 
 GradientSampling::GradientSampling(const Mesh& mesh, const GradientSettings& settings, const std::vector<Vector>& node)
     : mesh_(mesh), settings_(settings), node_(node), wide_(as_size(mesh.n_cells()), 0) {
-  for (Index c = 0; c < mesh.n_cells(); ++c) wide_[as_size(c)] = mesh.shape[c] == CellShape::tetrahedron ? 1 : 0;
+  for (Index c = 0; c < mesh.n_cells(); ++c) wide_[c] = mesh.shape[c] == CellShape::tetrahedron ? 1 : 0;
   if (settings.wide_triangles != WideTriangles::none) widen_prisms();
 }
 
 CellSamples GradientSampling::about(Index cell) const {
   constexpr int most_rings = 5;
-  CellSamples found{.wide = wide_[as_size(cell)] != 0};
+  CellSamples found{.wide = wide_[cell] != 0};
   int n_rings = found.wide ? 2 : 1;
   found.samples = rings(cell, n_rings, found.wide && mesh_.shape[cell] == CellShape::wedge);
   while (!has_full_rank(cell, found.samples) && ++n_rings <= most_rings) found.samples = rings(cell, n_rings, false);
   if (n_rings <= most_rings) return found;
-  const Vector& at = node_[as_size(cell)];
+  const Vector& at = node_[cell];
   if (!settings_.zero_if_deficient)
     throw InputError(
         fmt::format("the gradient of cell {} at ({:.4g}, {:.4g}, {:.4g}) m cannot be reconstructed: the cell has too "
@@ -74,7 +74,7 @@ void GradientSampling::widen_prisms() {
   parallel_for(mesh_.n_cells(), [&](Index c) {
     if (mesh_.shape[c] != CellShape::wedge || (is_plane && !lies_in_plane(c))) return;
     if (is_plane && settings_.wide_triangles == WideTriangles::in_plane) {
-      within[as_size(c)] = 1;
+      within[c] = 1;
       return;
     }
     const Vector normal = normal_of_triangles(mesh_, c);
@@ -82,14 +82,13 @@ void GradientSampling::widen_prisms() {
     const std::vector<GradientSample> ring = rings(c, 1, false);
     if (!has_full_rank(c, ring)) return;
     if (has_surface_beside(c))
-      at_surface[as_size(c)] = 1;
+      at_surface[c] = 1;
     else
-      within[as_size(c)] = largest_rise(c, ring) > most ? 1 : 0;
+      within[c] = largest_rise(c, ring) > most ? 1 : 0;
   });
   parallel_for(mesh_.n_cells(), [&](Index c) {
-    const auto follows = [&](Index f) { return mesh_.is_interior(f) && within[as_size(mesh_.across(f, c))] != 0; };
-    if (within[as_size(c)] != 0 || (at_surface[as_size(c)] != 0 && std::ranges::any_of(sides(c), follows)))
-      wide_[as_size(c)] = 1;
+    const auto follows = [&](Index f) { return mesh_.is_interior(f) && within[mesh_.across(f, c)] != 0; };
+    if (within[c] != 0 || (at_surface[c] != 0 && std::ranges::any_of(sides(c), follows))) wide_[c] = 1;
   });
 }
 
@@ -125,11 +124,11 @@ bool GradientSampling::is_of_plane_layer(Index prism, const Vector& normal) cons
 
 // By how much the gradient of these samples enlarges their differences, taken to a side of a prism.
 double GradientSampling::largest_rise(Index cell, const std::vector<GradientSample>& samples) const {
-  const Vector& here = node_[as_size(cell)];
+  const Vector& here = node_[cell];
   Tensor moment = Tensor::Zero();
   std::vector<Vector> weighted;
   for (const GradientSample& sample : samples) {
-    const Vector d = node_[as_size(sample.node)] - here;
+    const Vector d = node_[sample.node] - here;
     weighted.emplace_back(d / std::pow(d.norm(), 3));
     moment.noalias() += weighted.back() * d.transpose();
   }
@@ -194,7 +193,7 @@ Index GradientSampling::node_beside(Index cell, Index face) const {
 bool GradientSampling::has_full_rank(Index cell, const std::vector<GradientSample>& samples) const {
   Tensor moment = settings_.plane_normal * settings_.plane_normal.transpose();
   for (const GradientSample& sample : samples) {
-    const Vector d = (node_[as_size(sample.node)] - node_[as_size(cell)]).normalized();
+    const Vector d = (node_[sample.node] - node_[cell]).normalized();
     moment += d * d.transpose();
   }
   constexpr double least = 1e-3;

@@ -54,7 +54,7 @@ TwoPointFlux::Medium medium_of(const Mesh& mesh, const FractureModel& model, con
 
 // The damage equation of one solve, as BoundedNewton asks for it.
 template <class Driving>
-struct DamageTerm {
+struct DamageEquation::Term {
   const DamageEquation& equation;
   const Driving& psi_plus;  // by cell and d
   const CellField<double>& lower_bound;
@@ -184,13 +184,13 @@ ScalarSolution DamageEquation::solve(const CellField<double>& psi_plus, const Ce
                                      const ScalarTolerance& tolerance, CellField<double>& d) {
   linearise_drive(psi_plus, d);
   const auto fixed = [&](Index c, double) { return DrivingAt{.value = psi_plus[c]}; };
-  const DamageTerm<decltype(fixed)> term{*this, fixed, lower};
+  const Term<decltype(fixed)> term{*this, fixed, lower};
   return BoundedNewton(flux_, term, d).solve(tolerance);
 }
 
 ScalarSolution DamageEquation::solve(const DrivingLaw& psi_plus, const CellField<double>& lower,
                                      const ScalarTolerance& tolerance, CellField<double>& d) {
-  const DamageTerm<DrivingLaw> term{*this, psi_plus, lower};
+  const Term<DrivingLaw> term{*this, psi_plus, lower};
   ScalarTolerance damped = tolerance;
   damped.damps = true;
   return BoundedNewton(flux_, term, d).solve(damped);

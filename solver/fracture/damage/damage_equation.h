@@ -75,7 +75,7 @@ class DamageEquation {
 
  private:
   template <class Driving>
-  friend struct DamageTerm;
+  struct Term;
   double local_slope(Index cell, double d, double psi) const;              // of the local terms over the cell [J]
   double local_curvature(Index cell, double d, double psi) const;          // its derivative [J]
   double driving_curvature(Index cell, double d, double psi_slope) const;  // the part of it that psi's slope adds [J]

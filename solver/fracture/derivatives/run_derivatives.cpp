@@ -27,7 +27,7 @@ double dot(const std::vector<Vector>& a, const std::vector<Vector>& b) {
 
 /// In the norm of the diagonal, in which displacements and damage add up.
 double scaled_dot(const std::vector<Vector>& a, const std::vector<Vector>& b, const std::vector<double>& scale) {
-  return parallel_sum(count_of(a), [&](Index i) { return a[i].dot(b[i]) / (scale[as_size(i)] * scale[as_size(i)]); });
+  return parallel_sum(count_of(a), [&](Index i) { return a[i].dot(b[i]) / (scale[i] * scale[i]); });
 }
 
 }  // namespace
@@ -172,8 +172,8 @@ RunDerivatives::Step RunDerivatives::step_of(const FractureState& start, const F
   const std::size_t n = as_size(mesh_.n_cells());
   Step step{state, start.interfaces, ConjugateGradients::Held(n, 1), std::vector<char>(n, 0)};
   for (Index c = 0; c < mesh_.n_cells(); ++c) {
-    if (damage.is_damageable(c) && state.damage[c] > lower[c] && state.damage[c] < 1.0) step.held[as_size(c)] = 0;
-    if (state.damage[c] == lower[c] && lower[c] == start.damage[c]) step.inherits[as_size(c)] = 1;
+    if (damage.is_damageable(c) && state.damage[c] > lower[c] && state.damage[c] < 1.0) step.held[c] = 0;
+    if (state.damage[c] == lower[c] && lower[c] == start.damage[c]) step.inherits[c] = 1;
   }
   return step;
 }
@@ -197,7 +197,7 @@ std::vector<Vector> RunDerivatives::inherited(const Step& step, const CoupledSys
   std::vector<Vector> x(system.size(), Vector::Zero());
   if (p.is_load) return x;
   for (Index c = 0; c < mesh_.n_cells(); ++c)
-    if (system.is_held(c) && step.inherits[as_size(c)] != 0) system.of(x, c) = p.derivative.damage[c] * system.root(c);
+    if (system.is_held(c) && step.inherits[c] != 0) system.of(x, c) = p.derivative.damage[c] * system.root(c);
   return x;
 }
 

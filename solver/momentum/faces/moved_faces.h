@@ -111,7 +111,7 @@ class MovedFaces {
     Vector area = Vector::Zero();    // over the undeformed one
     Vector gap = Vector::Zero();     // u_f - u_p, where it is linearised [m]
   };
-  friend class MovedFacesBuilder;
+  class Builder;
   Vector mean(const Field& by, std::size_t begin, std::size_t end) const;
   Vector held(const Field& by, const Hold& hold) const;
   Vector place_in(const Loop& loop, Index corner) const { return corners_[corner].point + at_[corner] - loop.centre; }

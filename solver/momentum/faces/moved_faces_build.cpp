@@ -70,10 +70,10 @@ std::vector<Index> points_and_apex(const Mesh& mesh, Index face) {
 
 }  // namespace
 
-class MovedFacesBuilder {
+class MovedFaces::Builder {
  public:
-  MovedFacesBuilder(const Mesh& mesh, const Unknowns& unknowns, const std::vector<MovedFaces::Place>& places,
-                    const BondedSides& bonded, MovedFaces& faces)
+  Builder(const Mesh& mesh, const Unknowns& unknowns, const std::vector<MovedFaces::Place>& places,
+          const BondedSides& bonded, MovedFaces& faces)
       : mesh_(mesh), unknowns_(unknowns), places_(places), bonded_(bonded), faces_(faces), points_(mesh, unknowns) {}
 
   void build() {
@@ -289,7 +289,7 @@ class MovedFacesBuilder {
 
 MovedFaces::MovedFaces(const Mesh& mesh, const Unknowns& unknowns, const std::vector<Place>& places,
                        const BondedSides& bonded) {
-  if (!unknowns.pressure_cells.empty()) MovedFacesBuilder(mesh, unknowns, places, bonded, *this).build();
+  if (!unknowns.pressure_cells.empty()) Builder(mesh, unknowns, places, bonded, *this).build();
 }
 
 }  // namespace pfdm

@@ -115,7 +115,7 @@ TEST_P(WarmBodies, RelaxationUnderARisingTemperature) {
     loading.initial_increment = ramp;
     FractureRun run(mesh, model, {.equilibrium_tolerance = 1e-12}, loading);
     run_to_end(run, [&](const FractureState&, const StepReport& report) {
-      error[as_size(fine)] = shear_stress(mesh, report) / due - 1.0;
+      error[fine] = shear_stress(mesh, report) / due - 1.0;
     });
   }
   report_row("relaxation under a ramp of temperature", {{"error", error[0]}, {"steps halved", error[1]}});
@@ -142,8 +142,8 @@ TEST_P(WarmBodies, AShearedBlockWarmsAndSoftens) {
                     in_steps(1.0, fine == 0 ? 1.0 / 400.0 : 1.0 / 800.0, duration));
     run_to_end(run, [&](const FractureState&, const StepReport& report) {
       if (report.load < 1.0 - 1e-9) return;
-      stress_error[as_size(fine)] = shear_stress(mesh, report) / stress - 1.0;
-      rise_error[as_size(fine)] = report.heat->figures.greatest / rise - 1.0;
+      stress_error[fine] = shear_stress(mesh, report) / stress - 1.0;
+      rise_error[fine] = report.heat->figures.greatest / rise - 1.0;
       EXPECT_NEAR(report.heat->elapsed, duration, 1e-12);
     });
   }
@@ -225,7 +225,7 @@ TEST(WarmBody, FollowsALongTimeByCyclesThatRepeat) {
     StepReport last;
     run_to_end(run, [&](const FractureState&, const StepReport& report) { last = report; });
     EXPECT_NEAR(last.heat->elapsed, time, 1e-6 * time);
-    error[as_size(fine)] = last.heat->figures.mean / rise - 1.0;
+    error[fine] = last.heat->figures.mean / rise - 1.0;
     const HeatBalance& account = last.heat->account;
     EXPECT_NEAR(account.made, account.stored + account.lost, 1e-7 * account.made);
     report_row("cycles of a long time", {{"rise", last.heat->figures.mean}, {"due", rise}, {"cycles", last.load}});

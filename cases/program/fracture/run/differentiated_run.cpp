@@ -51,8 +51,8 @@ struct CurveOfRun {
   bool is_after_jump = false;
 
   RowDerivative row(const RunDerivatives::Derivative& by) const {
-    RowDerivative found{.force = by.reaction[as_size(patch)][component],
-                        .displacement = by.patch_displacement[as_size(patch)][component],
+    RowDerivative found{.force = by.reaction[patch][component],
+                        .displacement = by.patch_displacement[patch][component],
                         .unsolved = by.unsolved,
                         .is_after_jump = is_after_jump};
     if (sign < 0.0) found.displacement = -found.displacement, found.force = -found.force;
