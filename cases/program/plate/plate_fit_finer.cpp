@@ -1,7 +1,7 @@
 // What the mesh of a plate does to its fit.
 
 #include "cases/program/plate/plate_fit_model.h"
-#include "cases/program/studies/fit/finer_case.h"
+#include "cases/program/studies/runs/finer_case.h"
 
 #include <fmt/format.h>
 

@@ -1,6 +1,6 @@
 #include "cases/program/fracture/case/fracture_case.h"
 
-#include "cases/program/fracture/case/fatigue_case.h"
+#include "cases/program/fracture/body/fatigue_case.h"
 #include "cases/program/fracture/case/model_choice.h"
 #include "cases/program/fracture/case/run_keys.h"
 #include "cases/program/input/config/key_member.h"

@@ -1,8 +1,8 @@
 #include "cases/program/fracture/case/run_keys.h"
 
 #include "cases/program/fracture/body/body_keys.h"
+#include "cases/program/fracture/body/fatigue_case.h"
 #include "cases/program/fracture/body/mesh/mesh_keys.h"
-#include "cases/program/fracture/case/fatigue_case.h"
 #include "cases/program/input/config/key_member.h"
 #include "cases/program/studies/study_keys.h"
 #include "postproc/fields/energy_release_rate.h"

@@ -4,7 +4,7 @@
 #include "cases/program/session/terminal/stopwatch.h"
 #include "cases/program/studies/fit/curve_fit_at_work.h"
 #include "cases/program/studies/fit/curve_fit_results.h"
-#include "cases/program/studies/fit/finer_case.h"
+#include "cases/program/studies/runs/finer_case.h"
 #include "postproc/files/folder_lock.h"
 #include "solver/calibration/manifold_mapping.h"
 

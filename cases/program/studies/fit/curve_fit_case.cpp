@@ -2,7 +2,7 @@
 
 #include "cases/program/input/config/key_member.h"
 
-#include "cases/program/studies/fit/finer_case.h"
+#include "cases/program/studies/runs/finer_case.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -2,8 +2,8 @@
 
 #include "cases/program/session/runnable_case.h"
 #include "cases/program/studies/fit/curve_fit_at_work.h"
-#include "cases/program/studies/fit/finer_case.h"
 #include "cases/program/studies/fit/interval_trial.h"
+#include "cases/program/studies/runs/finer_case.h"
 #include "physics/quantity_text.h"
 #include "solver/calibration/calibration_statistics.h"
 #include "solver/calibration/profile_likelihood.h"

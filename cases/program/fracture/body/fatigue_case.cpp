@@ -1,4 +1,4 @@
-#include "cases/program/fracture/case/fatigue_case.h"
+#include "cases/program/fracture/body/fatigue_case.h"
 
 #include "cases/program/input/config/key_member.h"
 

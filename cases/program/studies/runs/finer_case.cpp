@@ -1,4 +1,4 @@
-#include "cases/program/studies/fit/finer_case.h"
+#include "cases/program/studies/runs/finer_case.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
