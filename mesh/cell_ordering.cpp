@@ -65,7 +65,7 @@ std::vector<Index> cuthill_mckee_component(CellGraph& graph, Index seed) {
   std::size_t last_level = 0;
   std::vector<Index> best = graph.levels_from(seed, depth, last_level);
   for (bool deeper = true; deeper;) {
-    const Index far = *std::min_element(best.begin() + static_cast<std::ptrdiff_t>(last_level), best.end(),
+    const Index far = *std::min_element(best.begin() + last_level, best.end(),
                                         [&](Index a, Index b) { return graph.degree(a) < graph.degree(b); });
     Index new_depth = 0;
     std::size_t new_last = 0;

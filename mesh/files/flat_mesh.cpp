@@ -77,9 +77,9 @@ class Extrusion {
 std::vector<Index> faces_of_prism(std::span<const Index> points) {
   const std::size_t n = points.size() / 2;
   std::vector<Index> stream{static_cast<Index>(n + 2), static_cast<Index>(n)};
-  stream.insert(stream.end(), points.begin(), points.begin() + static_cast<std::ptrdiff_t>(n));
+  stream.insert(stream.end(), points.begin(), points.begin() + n);
   stream.push_back(static_cast<Index>(n));
-  stream.insert(stream.end(), points.begin() + static_cast<std::ptrdiff_t>(n), points.end());
+  stream.insert(stream.end(), points.begin() + n, points.end());
   for (std::size_t i = 0; i < n; ++i) {
     const std::size_t next = (i + 1) % n;
     for (const Index entry : {Index{4}, points[i], points[next], points[n + next], points[n + i]})

@@ -15,7 +15,7 @@ Mandel mandel_at(std::span<const double> history, std::size_t first) {
 }
 
 void put(const Mandel& v, std::size_t first, std::span<double> history) {
-  std::ranges::copy(v, history.begin() + static_cast<std::ptrdiff_t>(first));
+  std::ranges::copy(v, history.begin() + first);
 }
 
 class EndochronicMaterial final : public SmallStrainMaterial {

@@ -38,8 +38,7 @@ void FieldPath::add_inside(const CurvePart& part, double x, double weight, StepW
     if (knot.share != 1.0) to.emplace_back(knot.before, weight * share * (1.0 - knot.share));
     if (knot.share != 0.0) to.emplace_back(knot.after, weight * share * knot.share);
   };
-  const auto begin = curve_.x.begin() + static_cast<std::ptrdiff_t>(part.first),
-             end = curve_.x.begin() + static_cast<std::ptrdiff_t>(part.end);
+  const auto begin = curve_.x.begin() + part.first, end = curve_.x.begin() + part.end;
   const auto above = std::upper_bound(begin, end, x);
   if (above == end) return add(part.end - 1, 1.0);
   if (above == begin) return add(part.first, 1.0);

@@ -70,7 +70,7 @@ class UffReader {
 
  private:
   InputError error(const std::string& message) const {
-    const auto line = 1 + std::count(content_.begin(), content_.begin() + static_cast<std::ptrdiff_t>(start_), '\n');
+    const auto line = 1 + std::count(content_.begin(), content_.begin() + start_, '\n');
     return InputError(fmt::format("{}, dataset of line {}: {}", path_.string(), line, message));
   }
 
@@ -164,7 +164,7 @@ class UffReader {
       if (trimmed(line) == "-1") throw error(fmt::format("it has {} of {} data values", numbers.size(), due));
       append_numbers(line, numbers);
     }
-    const auto end = numbers.begin() + static_cast<std::ptrdiff_t>(due);
+    const auto end = numbers.begin() + due;
     if (std::any_of(end, numbers.end(), [](double filling) { return filling != 0.0; }))
       throw error(fmt::format("it has more than its {} data values", due));
     f.n_filling = numbers.size() - due;

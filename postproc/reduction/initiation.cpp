@@ -61,8 +61,7 @@ StraightPart straight_part(const TestRecord& record) {
   const std::size_t first = first_row_with(record, straight_from * *top);
   straight.end = first_row_with(record, straight_to * *top);
   const auto part = [&](const std::vector<double>& v) {
-    return std::vector<double>(v.begin() + static_cast<std::ptrdiff_t>(first),
-                               v.begin() + static_cast<std::ptrdiff_t>(straight.end));
+    return std::vector<double>(v.begin() + first, v.begin() + straight.end);
   };
   const auto line = straight_line(part(record.displacement), part(record.force), 0.0);
   if (!line)
@@ -96,7 +95,7 @@ InitiationPoint five_percent_or_greatest(const TestRecord& record, const Straigh
   const auto point = crossing(record, straight, rule.compliance * straight.compliance, top);
   if (!point) return at_row(record, top);
   const auto first = record.force.begin();
-  const auto before = std::max_element(first, first + static_cast<std::ptrdiff_t>(point->row) + 1);
+  const auto before = std::max_element(first, first + point->row + 1);
   const bool is_greater = rule.or_greater_before && *before > point->force;
   return is_greater ? at_row(record, static_cast<std::size_t>(before - first)) : *point;
 }

@@ -59,8 +59,7 @@ Eigen::VectorXd rounded_start(const ScaledModel& model, const FitSettings& setti
 std::vector<Eigen::VectorXd> sample(const ScaledModel& model, const FitSettings& settings) {
   std::vector<int> bases = primes(model.n_parameters());
   for (std::size_t j = 0; j < bases.size(); ++j)  // the small ones, which fill space best, to those that are sampled
-    if (!model.problem().parameters[j].is_sampled)
-      std::rotate(bases.begin() + static_cast<std::ptrdiff_t>(j), bases.end() - 1, bases.end());
+    if (!model.problem().parameters[j].is_sampled) std::rotate(bases.begin() + j, bases.end() - 1, bases.end());
   const Eigen::VectorXd start = rounded_start(model, settings);
   std::vector<Eigen::VectorXd> points;
   for (int i = 0; i < settings.screened; ++i) {

@@ -153,7 +153,7 @@ void add_statistics(const ScaledModel& model, const Eigen::VectorXd& u, FitResul
   const auto J = jacobian_at_end(model, u, result);
   if (!r || !J) throw NoConvergence("the model does not converge at the fitted parameters");
   const std::size_t n = model.n_residuals(), k = model.n_parameters();
-  result.residuals.assign(r->begin(), r->begin() + static_cast<std::ptrdiff_t>(n));
+  result.residuals.assign(r->begin(), r->begin() + n);
   for (const double value : result.residuals) result.sum_of_squares += value * value;
   result.rms = std::sqrt(result.sum_of_squares / static_cast<double>(n));
   result.estimates.resize(k);

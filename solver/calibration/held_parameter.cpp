@@ -31,11 +31,11 @@ std::vector<double> others_by_linear_model(const FitProblem& problem, const FitR
 FitProblem with_held(const FitProblem& problem, std::size_t k, double value, const std::vector<double>& others) {
   const auto all = [k, value](std::span<const double> rest) {
     std::vector<double> values(rest.begin(), rest.end());
-    values.insert(values.begin() + static_cast<std::ptrdiff_t>(k), value);
+    values.insert(values.begin() + k, value);
     return values;
   };
   FitProblem held = problem;
-  held.parameters.erase(held.parameters.begin() + static_cast<std::ptrdiff_t>(k));
+  held.parameters.erase(held.parameters.begin() + k);
   for (std::size_t j = 0; j < others.size(); ++j)
     held.parameters[j].start = std::clamp(others[j], held.parameters[j].lower, held.parameters[j].upper);
   held.residuals = [&problem, all](std::span<const double> rest) { return problem.residuals(all(rest)); };

@@ -140,7 +140,7 @@ Kernel gathered(Kernel kernel, std::size_t n) {
     for (std::size_t i = 1; i + 1 < kernel.size(); ++i)
       if (kernel[i + 1].alpha / kernel[i].alpha < kernel[nearest + 1].alpha / kernel[nearest].alpha) nearest = i;
     kernel[nearest] = merged(kernel[nearest], kernel[nearest + 1]);
-    kernel.erase(kernel.begin() + static_cast<std::ptrdiff_t>(nearest) + 1);
+    kernel.erase(kernel.begin() + nearest + 1);
   }
   while (kernel.size() < n) {
     const auto largest = std::ranges::max_element(kernel, {}, &KernelTerm::C);

@@ -37,7 +37,7 @@ std::vector<double> response_over_time(const RelaxationModulus& modulus, const V
   std::vector<double> answer = experiment.follows_stress
                                    ? strain_response(creep_compliance(modulus), path.times, path.followed)
                                    : stress_response(modulus, path.times, path.followed);
-  answer.erase(answer.begin(), answer.begin() + static_cast<std::ptrdiff_t>(path.added));
+  answer.erase(answer.begin(), answer.begin() + path.added);
   return answer;
 }
 

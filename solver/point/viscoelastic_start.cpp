@@ -125,7 +125,7 @@ void join_near(std::vector<PronyBranch>& branches, double factor, std::size_t mo
     const bool is_near = branches[nearest + 1].time / branches[nearest].time < factor;
     if (!is_near && branches.size() <= most) return;
     branches[nearest] = joined(branches[nearest], branches[nearest + 1]);
-    branches.erase(branches.begin() + static_cast<std::ptrdiff_t>(nearest) + 1);
+    branches.erase(branches.begin() + nearest + 1);
   }
 }
 

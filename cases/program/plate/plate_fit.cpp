@@ -74,7 +74,7 @@ FitSettings settings_of(const PlateFit& fit, Session& session) {
 double rms_of_responses(const PlateFit& fit, const std::vector<double>& residuals) {
   std::size_t n = 0;
   for (const MeasuredResponse& measured : fit.responses) n += measured.magnitude.size() + measured.phase.size();
-  return n == 0 ? 0.0 : rms({residuals.begin(), residuals.begin() + static_cast<std::ptrdiff_t>(n)});
+  return n == 0 ? 0.0 : rms({residuals.begin(), residuals.begin() + n});
 }
 
 /// What the residuals that are more than noise may come from, as reasons. Returns what was tried.

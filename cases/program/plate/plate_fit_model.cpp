@@ -114,7 +114,7 @@ std::vector<ResidualSeries> PlateModel::series(const std::vector<double>& residu
   std::vector<ResidualSeries> all;
   auto next = residuals.begin();
   const auto add = [&](const std::string& name, const char* along, std::size_t n) {
-    const auto end = next + static_cast<std::ptrdiff_t>(n);
+    const auto end = next + n;
     all.push_back({.name = name, .along = along, .values = {next, end}});
     next = end;
   };

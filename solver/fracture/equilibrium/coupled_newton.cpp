@@ -48,8 +48,7 @@ CoupledNewton::Direction CoupledNewton::solve(const Iterate& at, const FractureS
                                         : -damage_.imbalance(c, state.damage, state.driving_energy[c]) / system.root(c);
   }
   krylov_iterations_ = system.solve(b, reduction, most_iterations, x).iterations;
-  Direction direction{.u = {x.begin(), x.begin() + static_cast<std::ptrdiff_t>(system.n_displacements())},
-                      .d = CellField<double>(system.n_cells())};
+  Direction direction{.u = {x.begin(), x.begin() + system.n_displacements()}, .d = CellField<double>(system.n_cells())};
   for (Index c = 0; c < system.n_cells(); ++c) direction.d[c] = system.of(x, c) / system.root(c);
   direction.slope = -parallel_sum(count_of(x), [&](Index i) { return b[i].dot(x[i]); });
   direction.largest = parallel_max(system.n_cells(), [&](Index c) { return std::abs(direction.d[c]); });

@@ -71,7 +71,7 @@ void CoupledSystem::apply(const std::vector<Vector>& x, std::vector<Vector>& y) 
     add_damage(x, y);
   } else {
     momentum_.balance().apply(u_, force_);
-    std::copy(x.begin() + static_cast<std::ptrdiff_t>(n_u_), x.end(), y.begin() + static_cast<std::ptrdiff_t>(n_u_));
+    std::copy(x.begin() + n_u_, x.end(), y.begin() + n_u_);
   }
   std::copy(force_.begin(), force_.end(), y.begin());
 }
@@ -96,7 +96,7 @@ void CoupledSystem::precondition(const std::vector<Vector>& r, std::vector<Vecto
     coupling_->apply(dg_, force_);
     parallel_for(count_of(force_), [&](Index i) { force_[i] = r[i] - force_[i]; });
   } else {
-    std::copy(r.begin() + static_cast<std::ptrdiff_t>(n_u_), r.end(), z.begin() + static_cast<std::ptrdiff_t>(n_u_));
+    std::copy(r.begin() + n_u_, r.end(), z.begin() + n_u_);
   }
   momentum_.precondition(force_, u_);
   std::copy(u_.begin(), u_.end(), z.begin());

@@ -40,8 +40,8 @@ class PointsOfCells {
     return slot;
   }
   std::size_t slot(Index cell, Index point) const {
-    const auto first = points_.begin() + static_cast<std::ptrdiff_t>(begin(cell));
-    const auto last = points_.begin() + static_cast<std::ptrdiff_t>(end(cell));
+    const auto first = points_.begin() + begin(cell);
+    const auto last = points_.begin() + end(cell);
     return static_cast<std::size_t>(std::lower_bound(first, last, point) - points_.begin());
   }
 

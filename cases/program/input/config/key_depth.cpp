@@ -49,8 +49,7 @@ void refuse_deep_keys(std::string_view text, const std::string& shown_as) {
       throw InputError(
           fmt::format("{}:{}: a key has more than {} parts with dots between them", shown_as, line, most_key_parts));
     follows_dot = c == '.' || (follows_dot && (c == ' ' || c == '\t'));
-    line += static_cast<int>(std::count(text.begin() + static_cast<std::ptrdiff_t>(at),
-                                        text.begin() + static_cast<std::ptrdiff_t>(end), '\n'));
+    line += static_cast<int>(std::count(text.begin() + at, text.begin() + end, '\n'));
     at = end;
   }
 }

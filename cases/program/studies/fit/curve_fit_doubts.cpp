@@ -47,7 +47,7 @@ void CurveFit::try_compliance(const DoneStage& done, std::size_t k, FitFindings&
 
 std::vector<double> CurveFit::residuals_of_curve(const DoneStage& done) {
   const std::vector<double>& all = done.result.residuals;
-  return {all.begin(), all.begin() + static_cast<std::ptrdiff_t>(done.points.n_data())};
+  return {all.begin(), all.begin() + done.points.n_data()};
 }
 
 bool CurveFit::suspect_law_or_set_up(const DoneStage& done, const SampledCurve& fitted, bool misses_origin,
@@ -162,10 +162,8 @@ std::vector<ResidualSeries> CurveFit::series_of(const MeasuredPoints& points,
   const std::size_t n = points.points.size(), n_data = points.n_data();
   for (std::size_t i = 0; i < n; ++i) result[points.points[i].specimen].values.push_back(residuals[i]);
   if (n_data > n)  // those of fields come behind, and are judged by themselves
-    result.push_back({.name = "the events",
-                      .along = "displacement",
-                      .values = {residuals.begin() + static_cast<std::ptrdiff_t>(n),
-                                 residuals.begin() + static_cast<std::ptrdiff_t>(n_data)}});
+    result.push_back(
+        {.name = "the events", .along = "displacement", .values = {residuals.begin() + n, residuals.begin() + n_data}});
   return result;
 }
 

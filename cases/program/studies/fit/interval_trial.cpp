@@ -46,7 +46,7 @@ double place_of_trial(const DoneFit& done, std::size_t k) {
 /// From where the linear model has them, or from the estimates. Nothing if the model converges at neither.
 std::optional<FitResult> others_anew(const DoneFit& done, std::size_t k, double there, const FitSettings& settings) {
   std::vector<double> at_estimates = done.result.values();
-  at_estimates.erase(at_estimates.begin() + static_cast<std::ptrdiff_t>(k));
+  at_estimates.erase(at_estimates.begin() + k);
   for (const auto& others : {others_by_linear_model(done.problem, done.result, k, there), at_estimates}) {
     const FitProblem held = with_held(done.problem, k, there, others);
     std::vector<double> start;
@@ -90,7 +90,7 @@ std::optional<std::string> doubt_of_interval(const DoneFit& done, std::size_t k,
   FitSettings once = on_grid(from_one_start(done.settings));
   if (done.settings.iterated)
     once.iterated = [&](FitIteration iteration) {  // of the others: told with the held one in its place
-      iteration.parameters.insert(iteration.parameters.begin() + static_cast<std::ptrdiff_t>(k), there);
+      iteration.parameters.insert(iteration.parameters.begin() + k, there);
       done.settings.iterated(iteration);
     };
   const std::optional<FitResult> other = others_anew(done, k, there, once);

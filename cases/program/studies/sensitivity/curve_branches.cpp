@@ -27,8 +27,7 @@ std::optional<CurveBranches::Place> CurveBranches::at(double x) const {
 double CurveBranches::interpolated(std::size_t branch, double x) const {
   const std::size_t from = first_[branch], to = first_[branch + 1];
   const auto begin = curve_.x.begin();
-  const auto above =
-      std::upper_bound(begin + static_cast<std::ptrdiff_t>(from), begin + static_cast<std::ptrdiff_t>(to), x);
+  const auto above = std::upper_bound(begin + from, begin + to, x);
   const std::size_t next = static_cast<std::size_t>(above - begin), n_points = std::min<std::size_t>(4, to - from);
   const std::size_t least = std::min(next >= from + 2 ? next - 2 : from, to - n_points);
   double sum = 0.0;

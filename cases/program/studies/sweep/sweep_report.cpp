@@ -48,7 +48,7 @@ SweepColumns columns_of(const CsvTable& table) {
 Table runs_table(const CsvTable& table, const SweepColumns& columns) {
   std::vector<std::size_t> all = columns.parameters;
   all.insert(all.end(), columns.figures.begin(),
-             columns.figures.begin() + static_cast<std::ptrdiff_t>(std::min(columns.figures.size(), most_columns)));
+             columns.figures.begin() + std::min(columns.figures.size(), most_columns));
   const std::size_t n = std::min(table.n_rows(), most_runs_shown);
   Table shown_table{.caption = n < table.n_rows()
                                    ? fmt::format("{}, the first {} of {}", runs_caption, n, table.n_rows())
@@ -124,8 +124,7 @@ ReportPage sweep_page(const fs::path& results, const std::string& title, const s
     page.rows.push_back(
         {.blocks = {TextBlock{.caption = "Folders, and runs that did not converge",
                               .lines = {table.comments.begin(),
-                                        table.comments.begin() + static_cast<std::ptrdiff_t>(std::min(
-                                                                     table.comments.size(), most_runs_shown))}}}});
+                                        table.comments.begin() + std::min(table.comments.size(), most_runs_shown)}}}});
   return page;
 }
 
