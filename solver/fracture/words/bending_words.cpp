@@ -64,8 +64,8 @@ std::string words_on(const BendingError& worst, bool is_about_axis) {
     return fmt::format(
         "too high or, with an odd number of cells along, too low (cells longer than the body is thick, of a material "
         "with inclined axes; within a factor of two). For {:.0f} %: cells up to {} long ([mesh])",
-        100.0 * bearable,
-        length_words(at.thickness * (1.0 + std::pow(bearable / (0.11 * std::sqrt(at.shear)), 1.0 / 1.3)), 2));
+        100.0 * bearable_bending,
+        length_words(at.thickness * (1.0 + std::pow(bearable_bending / (0.11 * std::sqrt(at.shear)), 1.0 / 1.3)), 2));
   return fmt::format(
       "too high or, with an odd number of cells along, too low (cells longer than the body is thick: 0.05 "
       "(length/thickness - 1)^1.3 sqrt((1 - nu)/(1 - 2 nu)), within a factor of two). For {:.0f} %: cells up to {} "

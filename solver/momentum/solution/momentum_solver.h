@@ -56,6 +56,8 @@ class MomentumSolver {
   /// states.
   void start_afresh() { stale_.start_afresh(); }
 
+  /// Iterations of FGMRES after which it begins again.
+  Index restart_length() const;
   /// Writes the prescribed values at t into u and solves to a residual of
   /// max(floor, min(ceiling, reduction x initial)).
   struct Tolerance {
@@ -89,7 +91,6 @@ class MomentumSolver {
   void build_preconditioner();
   bool is_due() const { return stale_.state() == StalePreconditioner::State::due; }
   void add_body_force(std::vector<Vector>& load) const;
-  Index restart_length() const;
   bool has_long_cycles() const;
   std::vector<Vector> load_vector(double t) const;
   double reference_norm(double t, const std::vector<Vector>& load);
