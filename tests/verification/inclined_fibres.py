@@ -68,3 +68,5 @@ if __name__ == "__main__":
                        ("z 30 and y 30", turned("y", 30)@turned("z", 30))):
         C = stiffness(*constants, axes)
         print(name, *(f"{deflection(C, cells, 6e-3, False):.5e}" for cells in ((16, 3, 5), (24, 4, 8))))
+    bar = deflection(stiffness(*constants, turned("z", 30)), (24, 4, 4), 1.5e-3, False)
+    print(f"bar 1.5 mm wide, z 30, under 1 N/m of its width {1.5e-3*bar:.5e}")

@@ -21,21 +21,25 @@ bool touch(const Mesh& mesh, Index f, Index g) {
 }
 
 // A line of cells through opposite faces. Ends may be free, planes of symmetry, or neither: held, or beside other
-// cells. Some of these glide: they are held across alone, as planes of symmetry are.
+// cells. Rollers at rest are held across alone, as planes of symmetry are.
 struct LayerLine {
   double n = 0.0, length = 0.0;
-  int n_mirrors = 0, n_held = 0, n_gliding = 0;
+  int n_mirrors = 0, n_held = 0, n_resting = 0;
   std::size_t stack = 0;  // of LayerLines, if it has layers
 
   double times() const { return n_mirrors == 1 ? 2.0 : 1.0; }
-  // Cells between the free surfaces on both sides. Nothing bends between two that glide, as in plane strain.
-  bool has_layers() const { return n_held == 0 && n_gliding < 2; }
+  // Cells between the free surfaces on both sides. Nothing bends between two rollers at rest, as in plane strain.
+  bool has_layers() const { return n_held == 0 && n_mirrors < 2 && n_resting < 2; }
 };
 
 class LayerLines {
  public:
   LayerLines(const Mesh& mesh, const Unknowns& unknowns)
-      : mesh_(mesh), unknowns_(unknowns), ends_(body_ends(mesh, unknowns)), pairs_(mesh.n_cells()) {
+      : mesh_(mesh),
+        unknowns_(unknowns),
+        ends_(body_ends(mesh, unknowns)),
+        rests_(resting_rollers(mesh, unknowns)),
+        pairs_(mesh.n_cells()) {
     for (Index c = 0; c < mesh.n_cells(); ++c) {
       lines_.emplace_back();
       pairs_[c] = pairs_of(c);
@@ -129,11 +133,11 @@ class LayerLines {
     bool mirror_is_first = false;
     for (const std::size_t side : {std::size_t{0}, std::size_t{1}}) {
       if (side == 1) std::ranges::reverse(steps);  // from one end of the line to the other
-      const auto [end, glides] = follow(cell, pairs_[cell][axis].face[side], steps);
+      const auto [end, rests] = follow(cell, pairs_[cell][axis].face[side], steps);
       line.n_mirrors += end == BodyEnd::mirror ? 1 : 0;
-      line.n_gliding += glides ? 1 : 0;
+      line.n_resting += rests ? 1 : 0;
       line.n_held += end == BodyEnd::held ? 1 : 0;
-      if (side == 0) mirror_is_first = end == BodyEnd::mirror;
+      mirror_is_first |= side == 0 && end == BodyEnd::mirror;
     }
     for (const auto& [c, a] : steps) {
       line.n += 1.0;
@@ -159,25 +163,20 @@ class LayerLines {
     return layers;
   }
 
-  struct LineEnd {
-    BodyEnd end = BodyEnd::held;
-    bool glides = false;
-  };
-  // Adds the cells beyond a face.
-  LineEnd follow(Index cell, Index face, std::vector<Step>& steps) const {
+  // Adds the cells beyond a face. What they end at, and whether that is a roller at rest.
+  std::pair<BodyEnd, bool> follow(Index cell, Index face, std::vector<Step>& steps) const {
     const Index first = cell;
     while (mesh_.is_interior(face) && !unknowns_.is_split(face)) {
       cell = mesh_.across(face, cell);
-      if (cell == first) return {};
+      if (cell == first) return {BodyEnd::held, false};
       const int axis = axis_of(cell, face);
-      if (axis < 0) return {};
+      if (axis < 0) return {BodyEnd::held, false};
       steps.emplace_back(cell, axis);
       const auto& ends = pairs_[cell][axis].face;
       face = ends[0] == face ? ends[1] : ends[0];
     }
-    if (mesh_.is_interior(face)) return {.end = BodyEnd::free};
-    const Vector normal = mesh_.face_area[face].normalized();
-    return {.end = ends_[face], .glides = unknowns_.glides(unknowns_.node_of_face[face], normal)};
+    if (mesh_.is_interior(face)) return {BodyEnd::free, false};
+    return {ends_[face], rests_[face] != 0};
   }
   int axis_of(Index cell, Index face) const {
     for (int a = 0; a < n_axes(cell); ++a)
@@ -189,6 +188,7 @@ class LayerLines {
   const Mesh& mesh_;
   const Unknowns& unknowns_;
   FaceField<BodyEnd> ends_;
+  FaceField<char> rests_;
   std::vector<std::array<OppositeFaces, 3>> pairs_;
   std::vector<std::array<LayerLine, 3>> lines_;
   std::vector<Stack> stacks_;

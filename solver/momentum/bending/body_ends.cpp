@@ -22,4 +22,19 @@ FaceField<BodyEnd> body_ends(const Mesh& mesh, const Unknowns& unknowns) {
   return end;
 }
 
+FaceField<char> resting_rollers(const Mesh& mesh, const Unknowns& unknowns) {
+  FaceField<char> rests(mesh.n_faces(), 0);
+  for (const PatchCondition& on : unknowns.conditions) {
+    const Patch& patch = mesh.patches[on.patch];
+    for (Index f = patch.first_face; f < patch.first_face + patch.n_faces; ++f) {
+      const Index node = unknowns.node_of_face[f];
+      const Vector normal = mesh.face_area[f].normalized();
+      if (node < 0 || !unknowns.glides(node, normal)) continue;
+      const Vector move = on.condition.value ? on.condition.value(mesh.face_centre[f], 1.0) : Vector::Zero();
+      rests[f] = normal.dot(move) == 0.0 ? 1 : 0;
+    }
+  }
+  return rests;
+}
+
 }  // namespace pfdm

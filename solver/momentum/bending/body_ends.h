@@ -11,4 +11,8 @@ enum class BodyEnd : char { free, mirror, held };
 /// Of the boundary faces; those within the body are free.
 FaceField<BodyEnd> body_ends(const Mesh& mesh, const Unknowns& unknowns);
 
+/// Nonzero for the boundary faces that are held across alone, and do not move that way at the end of the load: planes
+/// of symmetry, and rollers at rest.
+FaceField<char> resting_rollers(const Mesh& mesh, const Unknowns& unknowns);
+
 }  // namespace pfdm

@@ -19,18 +19,16 @@ class LayerCurvature::Maker {
     for (std::size_t k = 0; k < sides.size(); ++k) sides_of_[sides[k].cell].emplace_back(sides[k].face, k);
   }
 
-  void add(const BendingCell& in) {
-    const MandelMatrix* C = unknowns_.stiffness_of(mesh_, in.cell);
-    if (C == nullptr || is_symmetric_about(*C, mesh_.face_area[in.across[0]].normalized())) return;
-    const std::optional<Second> here = second(in.cell, in.across);
-    if (!here) return;
-    for (const auto& [face, side] : sides_of_[in.cell])
-      if (face != in.across[0] && face != in.across[1])
-        add_cutting(in, face, side, *here);
-      else if (walk_.is_free(face) || unknowns_.is_split(face))
-        add_surface(in.cell, face, side, *here);
-      else if (const Index other = walk_.beyond(in.cell, face).cell; other >= 0)
-        add_between(in.cell, face, side, other, *here);
+  // Across the thinnest layers, which bend the most; across others torsion would be too stiff.
+  void add(std::span<const BendingCell> all) {
+    constexpr double as_thin = 1.01;
+    const double least = std::ranges::min(all, {}, &BendingCell::thickness).thickness;
+    const auto sheared = std::ranges::find_if(all, [&](const BendingCell& in) {
+      const MandelMatrix* C = unknowns_.stiffness_of(mesh_, in.cell);
+      return in.thickness <= as_thin * least && C != nullptr &&
+             !is_symmetric_about(*C, mesh_.face_area[in.across[0]].normalized());
+    });
+    if (sheared != all.end()) add(*sheared);
   }
 
  private:
@@ -39,6 +37,19 @@ class LayerCurvature::Maker {
     std::array<Index, 3> others{-1, -1, -1};
     std::array<double, 3> parts{};  // [1/m^2]
   };
+
+  void add(const BendingCell& in) {
+    const std::optional<Second> here = second(in.cell, in.across);
+    for (const auto& [face, side] : sides_of_[in.cell])
+      if (face != in.across[0] && face != in.across[1]) {
+        if (here) add_cutting(in, face, side, *here);
+      } else if (walk_.is_free(face) || unknowns_.is_split(face)) {
+        if (here) add_surface(in.cell, face, side, *here);
+      } else if (const Index other = walk_.beyond(in.cell, face).cell; other >= 0) {
+        level(in.cell, face, side, other);
+        if (here) add_between(in.cell, face, side, other, *here);
+      }
+  }
 
   double apart(const Vector& a, const Vector& b) const { return (a - b).norm(); }
   double to_face(Index cell, Index face) const { return apart(mesh_.face_centre[face], mesh_.cell_centre[cell]); }
@@ -98,6 +109,15 @@ class LayerCurvature::Maker {
     append(side, cell, here, 0.5 * to * (to + back), n, n);
   }
 
+  // Stresses of both cells count by their own distance from the face, so that derivatives along it are those as far
+  // beyond it as it is from the nearer one; and the difference of both cells is that half-way between them.
+  void level(Index cell, Index face, std::size_t side, Index other) {
+    const double a = to_face(cell, face), b = to_face(other, face);
+    const Vector n = mesh_.face_area[face].normalized();
+    append(side, cell, {.others = {other, -1, -1}, .parts = {1.0, 0.0, 0.0}}, (a - b) / (a + b), n, n);
+    made_.leans_[side / 2] = 0.5 * (mesh_.owner[face] == cell ? a - b : b - a);
+  }
+
   void add_between(Index cell, Index face, std::size_t side, Index other, const Second& here) {
     const Index far = opposite_face(mesh_, other, face);
     const std::optional<Second> there = far < 0 ? std::nullopt : second(other, {face, far});
@@ -116,10 +136,11 @@ class LayerCurvature::Maker {
 
 LayerCurvature::LayerCurvature(const Mesh& mesh, const Unknowns& unknowns, std::span<const CubicFaces::Side> sides,
                                const std::vector<BendingCell>& cells, std::span<const std::size_t> surfaces) {
+  leans_.assign(sides.size() / 2 + 1, 0.0);
   Maker maker(mesh, unknowns, sides, *this);
   for (auto next = cells.begin(); next != cells.end();) {
     const auto end = std::find_if(next, cells.end(), [&](const BendingCell& in) { return in.cell != next->cell; });
-    maker.add(*std::ranges::min_element(next, end, {}, &BendingCell::thickness));
+    maker.add(std::span(next, end));
     next = end;
   }
   std::ranges::stable_sort(changes_, {}, &Change::side);

@@ -40,6 +40,7 @@
 #include "solver/momentum/body/momentum_faces.h"
 #include "solver/parallel.h"
 
+#include <algorithm>
 #include <array>
 #include <vector>
 
@@ -89,6 +90,12 @@ class LayerGradients {
   /// see(side, cell, the next cell inwards, the part of the difference of both that the field at the side differs by).
   template <class See>
   void extrapolate(const See& see) const;
+  /// LayerCurvature::lean() of a link, as much as the lines of both cells count [m].
+  double lean(std::size_t link) const {
+    const double sound = curvature_.lean(link);
+    const auto& [P, N] = cells_of_link_[link];
+    return sound == 0.0 ? 0.0 : sound * std::min(counting_[P], counting_[N]);
+  }
   /// The weights of the components of the jump at a link.
   const Tensor& weight(std::size_t link) const { return weights_[link]; }
 

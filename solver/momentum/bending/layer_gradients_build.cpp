@@ -2,6 +2,7 @@
 
 #include "solver/momentum/bending/layer_gradients.h"
 
+#include "physics/elasticity/anisotropy.h"
 #include "solver/momentum/bending/line_walk.h"
 #include "solver/momentum/bending/line_weights.h"
 #include "solver/parallel.h"
@@ -80,9 +81,16 @@ class LayerGradients::Maker {
   };
   // The slope at the face of a cell of the line: at the distance `x`, the face's distance from the cell's own centre
   // being `half`, over the length of the first one. Nothing where the face carries neither a cell beyond nor a node.
+  // Where the layers are sheared (layer_curvature.h) the slope between two centres is that half-way between them.
   std::optional<Place> slope_at(Index cell, Index face, double x, double half) const {
-    if (const LineWalk::Step next = walk_.beyond(cell, face); next.cell >= 0)
-      return Place{as_size(cell), as_size(next.cell), x, x, -1};
+    if (const LineWalk::Step next = walk_.beyond(cell, face); next.cell >= 0) {
+      const double to_next = (walk_.place(as_size(next.cell)) - mesh_.face_centre[face]).norm();
+      const double own = (mesh_.cell_centre[cell] - mesh_.face_centre[face]).norm();
+      const MandelMatrix* C = unknowns_.stiffness_of(mesh_, cell);
+      const bool is_sheared = C != nullptr && !is_symmetric_about(*C, mesh_.face_area[face].normalized());
+      const double at = is_sheared ? x + 0.5 * half * (to_next / own - 1.0) : x;
+      return Place{as_size(cell), as_size(next.cell), at, at, -1};
+    }
     const Index node = unknowns_.node_beside(mesh_, cell, face);
     if (node < 0) return std::nullopt;
     const double middle = x - half / 2.0, at = walk_.is_free(face) ? x : middle;

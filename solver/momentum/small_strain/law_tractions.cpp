@@ -54,7 +54,7 @@ void LawTractions::find_linear(const std::vector<Vector>& u, Sweep& sweep) const
     const Vector stress_P = linear_traction(P, gradient_at(link.P, P, s));
     const Vector stress_N = linear_traction(N, gradient_at(link.N, N, s));
     const Vector u_P = u[link.P] + G_P * link.d_P;
-    const Vector jump = u[link.N] + G_N * link.d_N - u_P;
+    const Vector jump = u[link.N] + G_N * link.d_N - u_P + leaned(i, G_N - G_P);
     const auto& by = link_tensors_[i];
     s.force[i] = link.area * (stress_N + by.weight * (stress_P - stress_N) + by.c * weighed(i, jump));
   });

@@ -78,6 +78,11 @@ class LawTractions final : public SmallTractions {
   Tensor strain_at(Index cell, std::size_t turn, const LawSweep& s) const {
     return symmetric_part(gradient_at(cell, turn, s)) - eigenstrain_change(turn);
   }
+  // What a displacement of second order across uneven layers adds to the jump, by the difference of both gradients [m].
+  Vector leaned(std::size_t link, const Tensor& difference) const {
+    return cells_.layers().any() ? Vector(cells_.layers().lean(link) * (difference * skeleton_.links[link].n))
+                                 : Vector(Vector::Zero());
+  }
   // The jump at a link as the gaps bear it [m].
   Vector weighed(std::size_t link, const Vector& jump) const {
     return cells_.layers().any() ? Vector(cells_.layers().weight(link) * jump) : jump;

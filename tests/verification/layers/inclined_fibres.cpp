@@ -2,8 +2,8 @@
 // (inclined_fibres.py). Strains along the layers shear them there, and vary across them as the shear stress does.
 
 #include "physics/elasticity/anisotropy.h"
-#include "solver/fracture/words/bending_words.h"
 #include "solver/fracture/fracture_run.h"
+#include "solver/fracture/words/bending_words.h"
 #include "tests/verification/layers/cantilever.h"
 
 #include <fmt/format.h>
@@ -56,6 +56,25 @@ TEST(InclinedFibres, BendInPlaneStrain) {
       EXPECT_LT(std::abs(error), 0.034);
       EXPECT_EQ(bending_warning(mesh, model), std::nullopt);
     }
+}
+
+// The ratio is that of the last layer's thickness to the first. They were 25 to 2,800 % too stiff, or 22 to 100 % too
+// soft.
+TEST(InclinedFibres, BendInUnevenLayers) {
+  for (const Slice& slice : slices)
+    for (const double sign : {1.0, -1.0})
+      for (const auto& [across, ratio] :
+           {std::pair<Index, double>{2, 0.9}, {2, 2.0}, {3, 1.2}, {4, 1.05}, {4, 0.5}, {4, 2.0}, {8, 3.0}}) {
+        BoxHexesSettings box;
+        box.axes[0] = {{span, 25, 1.0}};
+        box.axes[1] = {{height, across, ratio}};
+        box.axes[2] = {{width, 1, 1.0}};
+        const FractureModel model = model_of(about(Vector::UnitZ(), sign * slice.degrees), clamped_at_x0(false));
+        const double error = slice.expected / deflection(make_box_hexes(box), model) - 1.0;
+        report_row(fmt::format("{} degrees, {} layers, ratio {}", sign * slice.degrees, across, ratio),
+                   {{"stiffness over the elements', less 1", error}});
+        EXPECT_LT(std::abs(error), across > 2 ? 0.034 : 0.085);
+      }
 }
 
 // They are warned of, within a factor of two and 1 %.
@@ -122,12 +141,32 @@ TEST(InclinedFibres, OfFineStripsHaveAnEquilibrium) {
   EXPECT_LT(report.krylov_iterations, 3000);
 }
 
-// Nothing bends between rollers on both sides, which plane strain in space is.
+// The thinnest of the directions in which fibres are inclined: along the sides of a bar, and across the width.
+TEST(InclinedFibres, BendAboutEitherSide) {
+  for (const bool is_turned : {false, true}) {
+    BoxHexesSettings box;
+    box.axes[0] = {{span, 25, 1.0}};
+    box.axes[1] = box.axes[2] = {{height, 4, 1.0}};
+    const Vector axis = is_turned ? Vector::UnitY() : Vector::UnitZ(),
+                 along = is_turned ? Vector::UnitZ() : Vector::UnitY();
+    FractureModel model = model_of(about(axis, 30.0), clamped_alone());
+    model.boundary.back() = traction_on("xmax", [along](const Vector&) -> Vector { return along / height; });
+    const Mesh mesh = make_box_hexes(box);
+    const double at_end = displacements_by_laws(mesh, model)[mesh.patch_index("xmax")].dot(along);
+    report_row(fmt::format("bar, along {}", is_turned ? "z" : "y"), {{"deflection under 1 N/m [m]", at_end}});
+    EXPECT_NEAR(at_end / 8.440e-7, 1.0, 0.02);
+  }
+}
+
+// Nothing bends between rollers on both sides, which plane strain in space is; rollers that move may bend it.
 TEST(InclinedFibres, AreNotWarnedOfAcrossAPlane) {
   std::vector<BoundaryCondition> held = clamped_at_x0(false);
   for (std::size_t k : {std::size_t{0}, std::size_t{1}})
     held[k] = {.patch = held[k].patch, .displacement_prescribed = {false, false, true}, .value = nullptr};
   EXPECT_EQ(bending_warning(mesh_of(25, 4), model_of(about(Vector::UnitZ(), 30.0), held)), std::nullopt);
+  for (std::size_t k : {std::size_t{0}, std::size_t{1}})
+    held[k].value = [](const Vector& x, double) -> Vector { return 1e-3 * x.x() * x.x() * Vector::UnitZ(); };
+  EXPECT_NE(bending_warning(mesh_of(25, 4), model_of(about(Vector::UnitZ(), 30.0), held)), std::nullopt);
 }
 
 }  // namespace
