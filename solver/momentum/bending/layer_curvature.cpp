@@ -1,10 +1,10 @@
 #include "solver/momentum/bending/layer_curvature.h"
 
-#include "physics/elasticity/anisotropy.h"
 #include "solver/momentum/bending/line_walk.h"
 #include "solver/parallel.h"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <utility>
 
@@ -24,9 +24,7 @@ class LayerCurvature::Maker {
     constexpr double as_thin = 1.01;
     const double least = std::ranges::min(all, {}, &BendingCell::thickness).thickness;
     const auto sheared = std::ranges::find_if(all, [&](const BendingCell& in) {
-      const MandelMatrix* C = unknowns_.stiffness_of(mesh_, in.cell);
-      return in.thickness <= as_thin * least && C != nullptr &&
-             !is_symmetric_about(*C, mesh_.face_area[in.across[0]].normalized());
+      return in.thickness <= as_thin * least && walk_.is_sheared(in.cell, in.across[0]);
     });
     if (sheared != all.end()) add(*sheared);
   }
@@ -112,7 +110,9 @@ class LayerCurvature::Maker {
   // Stresses of both cells count by their own distance from the face, so that derivatives along it are those as far
   // beyond it as it is from the nearer one; and the difference of both cells is that half-way between them.
   void level(Index cell, Index face, std::size_t side, Index other) {
+    constexpr double even = 1e-12;
     const double a = to_face(cell, face), b = to_face(other, face);
+    if (std::abs(a - b) <= even * (a + b)) return;
     const Vector n = mesh_.face_area[face].normalized();
     append(side, cell, {.others = {other, -1, -1}, .parts = {1.0, 0.0, 0.0}}, (a - b) / (a + b), n, n);
     made_.leans_[side / 2] = 0.5 * (mesh_.owner[face] == cell ? a - b : b - a);

@@ -2,7 +2,6 @@
 
 #include "solver/momentum/bending/layer_gradients.h"
 
-#include "physics/elasticity/anisotropy.h"
 #include "solver/momentum/bending/line_walk.h"
 #include "solver/momentum/bending/line_weights.h"
 #include "solver/parallel.h"
@@ -84,11 +83,12 @@ class LayerGradients::Maker {
   // Where the layers are sheared (layer_curvature.h) the slope between two centres is that half-way between them.
   std::optional<Place> slope_at(Index cell, Index face, double x, double half) const {
     if (const LineWalk::Step next = walk_.beyond(cell, face); next.cell >= 0) {
-      const double to_next = (walk_.place(as_size(next.cell)) - mesh_.face_centre[face]).norm();
-      const double own = (mesh_.cell_centre[cell] - mesh_.face_centre[face]).norm();
-      const MandelMatrix* C = unknowns_.stiffness_of(mesh_, cell);
-      const bool is_sheared = C != nullptr && !is_symmetric_about(*C, mesh_.face_area[face].normalized());
-      const double at = is_sheared ? x + 0.5 * half * (to_next / own - 1.0) : x;
+      double at = x;
+      if (walk_.is_sheared(cell, face)) {
+        const double to_next = (mesh_.cell_centre[next.cell] - mesh_.face_centre[face]).norm();
+        const double own = (mesh_.cell_centre[cell] - mesh_.face_centre[face]).norm();
+        at += 0.5 * half * (to_next / own - 1.0);
+      }
       return Place{as_size(cell), as_size(next.cell), at, at, -1};
     }
     const Index node = unknowns_.node_beside(mesh_, cell, face);

@@ -2,6 +2,7 @@
 // Lines of cells through opposite faces: their way through a body, and the components that its faces hold.
 
 #include "mesh/mesh.h"
+#include "physics/elasticity/anisotropy.h"
 #include "solver/momentum/bending/bending_layers.h"
 #include "solver/momentum/body/unknowns.h"
 
@@ -43,6 +44,12 @@ class LineWalk {
   }
   bool is_bonded(Index face) const {
     return mesh_.is_interior(face) && !unknowns_.is_split(face) && unknowns_.node_of_face[face] >= 0;
+  }
+
+  /// Whether strains within layers that this face of a cell bounds shear them (layer_curvature.h).
+  bool is_sheared(Index cell, Index face) const {
+    const MandelMatrix* C = unknowns_.stiffness_of(mesh_, cell);
+    return C != nullptr && !is_symmetric_about(*C, mesh_.face_area[face].normalized());
   }
 
   /// Whether the shear moduli of two cells differ by no more than this factor, at once and after any time.
