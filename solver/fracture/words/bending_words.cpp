@@ -38,6 +38,21 @@ std::string words_on_thin(const BendingError& worst) {
       length_words(stack.thinnest_thickness, 3), 100.0 * bearable_bending, by_cubics ? "two" : "three");
 }
 
+// On axes that turn across the layers.
+std::string words_on_turn(const BendingError& worst) {
+  const BendingLayers& at = worst.layers;
+  const double by_layers = at.turn.error();
+  const std::string which =
+      by_layers >= worst.error
+          ? fmt::format("{:.0f} layers", std::ceil(at.n * std::sqrt(by_layers / bearable_bending)))
+          : fmt::format("cells up to {} long",
+                        length_words(at.thickness * AxesTurn::length_for(bearable_bending, at.shear), 2));
+  return fmt::format(
+      "too high or too low (axes of the material turn across the layers; within a factor "
+      "of three). For {:.0f} %: {} ([mesh])",
+      100.0 * bearable_bending, which);
+}
+
 // Words on the worst error, its reason and its remedy.
 std::string words_on(const BendingError& worst, bool is_about_axis) {
   const BendingLayers& at = worst.layers;
@@ -52,6 +67,7 @@ std::string words_on(const BendingError& worst, bool is_about_axis) {
                       : fmt::format("measured within {}", at.stack.n_materials > 1 ? "a factor of two" : "a third"),
         100.0 * bearable_bending, std::ceil(layers_for_it * at.n / at.stack.even_layers() - 0.01),
         length_words(at.stack.even_thickness * std::sqrt(bearable_bending / (1.5 * (1.0 - nu))), 2));
+  if (worst.by == BendBy::lines && at.is_by_turn(nu)) return words_on_turn(worst);
   if (worst.error < 0.0) return words_on_thin(worst);
   if (worst.by == BendBy::cubics)
     return fmt::format(

@@ -20,6 +20,7 @@ DirectedStrip::DirectedStrip(const MandelMatrix& C, const Vector& along, const V
   modulus = 1.0 / within.inverse()(0, 0);
   shear_held = within(2, 2);
   shear_stiffness = shear_held - within(0, 2) * within(0, 2) / within(0, 0);
+  shear_by_strain = within.bottomRightCorner<2, 2>().inverse().row(1).dot(within.col(0).tail<2>());
 }
 
 double poisson_share(double nu) {
@@ -58,11 +59,17 @@ double BendingLayers::excess_of_lines(double nu) const {
 
 double BendingLayers::excess_of_uneven() const {
   const double d = std::max(0.0, stack.layers - 1.0 / (n * n));
-  return stack.n_materials == 1 && n > 2.5 ? d / (1.0 + 6.0 * d) : 0.0;
+  const bool is_even_in_stiffness = stack.n_materials == 1 && shear == 0.0 && turn.range == 0.0;
+  return is_even_in_stiffness && n > 2.5 ? d / (1.0 + 6.0 * d) : 0.0;
+}
+
+double BendingLayers::error_of_turn() const {
+  return std::max(turn.error(), turn.error_of_long(length / thickness, shear));
 }
 
 double BendingLayers::error_of_lines(double nu) const {
   const double excess = std::max(excess_of_lines(nu), excess_of_uneven()), lack = lack_of_lines();
+  if (const double by_turn = error_of_turn(); by_turn > excess + lack) return by_turn;
   return excess > lack ? excess + lack : -excess - lack;
 }
 

@@ -2,6 +2,7 @@
 // Layers of few cells that bend: lines of cells through opposite faces, and the bending error of gradients of one ring.
 
 #include "mesh/mesh.h"
+#include "solver/momentum/bending/axes_turn.h"
 #include "solver/momentum/bending/layer_stack.h"
 #include "solver/momentum/body/unknowns.h"
 
@@ -24,6 +25,7 @@ struct BendingLayers {
   /// Where strains within the layers shear them: C_ss of the shear angle times the compliance of the stress along [-].
   /// Zero elsewhere.
   double shear = 0.0;
+  AxesTurn turn{};
 
   /// Bending stiffness with gradients of one ring over the exact one: 1.5 (1 - nu) (length/thickness)^2 too much, and
   /// (3 - 2/n)/n^2 too little.
@@ -51,8 +53,11 @@ struct BendingLayers {
   double lack_of_lines() const { return 0.65 * stack.lone + 0.06 * stack.beside + 0.14 * stack.between; }
   /// Three or more uneven layers of a single material, too much: d/(1 + 6 d), d = layers - 1/n^2.
   double excess_of_uneven() const;
-  /// The larger of the two, too much, where they exceed what is lacking, else that; a laminate's are added.
+  /// The larger of the two, too much, where they exceed what is lacking, else that; a laminate's are added. Or that of
+  /// axes that turn, if it is larger.
   double error_of_lines(double nu) const;
+  double error_of_turn() const;
+  bool is_by_turn(double nu) const { return error_of_turn() > 0.0 && error_of_lines(nu) == error_of_turn(); }
   /// Cubic fits in plane meshes, either way: c (length/thickness)^3 thickness/even_thickness, c = 0.005 + 0.014
   /// of_pairs of laminates, and 0.019 of two layers of a single material; zero of more.
   double excess_of_cubics() const;
@@ -74,6 +79,7 @@ struct DirectedStrip {
   double modulus = 0.0;          ///< of the stress along it, E/(1 - nu^2) if isotropic [Pa]
   double shear_held = 0.0;       ///< C_ss [Pa]
   double shear_stiffness = 0.0;  ///< C_ss - C_as^2/C_aa [Pa]
+  double shear_by_strain = 0.0;  ///< R of AxesTurn [-]
 
   DirectedStrip(const MandelMatrix& C, const Vector& along, const Vector& across);
 };

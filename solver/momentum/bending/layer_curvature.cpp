@@ -1,6 +1,7 @@
 #include "solver/momentum/bending/layer_curvature.h"
 
 #include "solver/momentum/bending/line_walk.h"
+#include "solver/momentum/bending/turned_stiffness.h"
 #include "solver/parallel.h"
 
 #include <algorithm>
@@ -15,7 +16,12 @@ class LayerCurvature::Maker {
 
  public:
   Maker(const Mesh& mesh, const Unknowns& unknowns, std::span<const CubicFaces::Side> sides, LayerCurvature& made)
-      : mesh_(mesh), unknowns_(unknowns), walk_(mesh, unknowns), made_(made), sides_of_(mesh.n_cells()) {
+      : mesh_(mesh),
+        unknowns_(unknowns),
+        walk_(mesh, unknowns),
+        stiffness_(mesh, unknowns),
+        made_(made),
+        sides_of_(mesh.n_cells()) {
     for (std::size_t k = 0; k < sides.size(); ++k) sides_of_[sides[k].cell].emplace_back(sides[k].face, k);
   }
 
@@ -23,9 +29,8 @@ class LayerCurvature::Maker {
   void add(std::span<const BendingCell> all) {
     constexpr double as_thin = 1.01;
     const double least = std::ranges::min(all, {}, &BendingCell::thickness).thickness;
-    const auto sheared = std::ranges::find_if(all, [&](const BendingCell& in) {
-      return in.thickness <= as_thin * least && walk_.is_sheared(in.cell, in.across[0]);
-    });
+    const auto sheared = std::ranges::find_if(
+        all, [&](const BendingCell& in) { return in.thickness <= as_thin * least && is_sheared_beside(in); });
     if (sheared != all.end()) add(*sheared);
   }
 
@@ -36,12 +41,21 @@ class LayerCurvature::Maker {
     std::array<double, 3> parts{};  // [1/m^2]
   };
 
+  // The layer itself, or one beside it where axes turn.
+  bool is_sheared_beside(const BendingCell& in) const {
+    return walk_.is_sheared(in.cell, in.across[0]) || std::ranges::any_of(in.across, [&](Index face) {
+             const Index other = walk_.beyond(in.cell, face).cell;
+             return other >= 0 && walk_.is_sheared(other, face);
+           });
+  }
+
   void add(const BendingCell& in) {
     const std::optional<Second> here = second(in.cell, in.across);
     for (const auto& [face, side] : sides_of_[in.cell])
       if (face != in.across[0] && face != in.across[1]) {
         if (here) add_cutting(in, face, side, *here);
       } else if (walk_.is_free(face) || unknowns_.is_split(face)) {
+        add_turn_to_surface(in.cell, face, side);
         if (here) add_surface(in.cell, face, side, *here);
       } else if (const Index other = walk_.beyond(in.cell, face).cell; other >= 0) {
         level(in.cell, face, side, other);
@@ -91,20 +105,61 @@ class LayerCurvature::Maker {
     for (double& part : change.parts) part *= factor;
     made_.changes_.push_back(change);
   }
+  // Along the layers, between two or on a surface: the slope that balances what the strains of the others make there.
+  void append_along(std::size_t side, Index cell, const Second& by, double factor, const Vector& n) {
+    append(side, cell, by, factor, n, n);
+    for (std::size_t k = 0; k < by.others.size(); ++k) add_turn(side, cell, by.others[k], factor * by.parts[k], n);
+  }
+  void add_turn(std::size_t side, Index cell, Index other, double part, const Vector& n) {
+    if (other < 0 || !stiffness_.turns(cell, other)) return;
+    made_.turns_.push_back(
+        {.side = side, .cell = cell, .other = other, .slope = part * stiffness_.slope_along(cell, other, n), .n = n});
+  }
+
+  // By which lines give the derivative across at a cell with its second derivative: d^2/12, less a twenty-fourth of the
+  // weight of slopes at free surfaces, which are those at a place [m^2].
+  double multiple_at(const BendingCell& in) const {
+    const double d = walk_.length(in.across[0], in.across[1]);
+    double of_surfaces = 0.0;
+    for (const Index face : in.across) of_surfaces += weight_of_surface(in, face);
+    return d * d * (1.0 / 12.0 - of_surfaces / 24.0);
+  }
+  double weight_of_surface(const BendingCell& in, Index face) const {
+    const auto ends = [&](Index at) { return walk_.is_free(at) || unknowns_.is_split(at); };
+    const LineWalk::Step next = walk_.beyond(in.cell, face);
+    const bool is_lone = ends(in.across[face == in.across[0] ? 1 : 0]);
+    if (next.cell < 0) return ends(face) ? 5.0 / 12.0 : 0.0;
+    if (next.far < 0 || !ends(next.far)) return 0.0;
+    return is_lone ? -1.0 / 12.0 : -1.0 / 24.0;
+  }
 
   void add_cutting(const BendingCell& in, Index face, std::size_t side, const Second& here) {
     if (!mesh_.is_interior(face) && !walk_.is_free(face)) return;
-    const double d = walk_.length(in.across[0], in.across[1]);
+    const double of_cell = multiple_at(in);
     const Vector line = (mesh_.face_centre[in.across[1]] - mesh_.face_centre[in.across[0]]).normalized();
     const Vector normal = mesh_.face_area[in.across[0]].normalized();
-    append(side, in.cell, here, d * d / 12.0, line, normal / normal.dot(line));
+    append(side, in.cell, here, of_cell, line, normal / normal.dot(line));
+    const Vector n = mesh_.face_area[face].normalized();
+    for (std::size_t k = 0; k < here.others.size(); ++k)
+      if (const Index other = here.others[k]; other >= 0 && stiffness_.turns(in.cell, other))
+        made_.turns_.push_back({.side = side,
+                                .cell = in.cell,
+                                .other = other,
+                                .slope = of_cell * here.parts[k] * stiffness_.slope_cutting(in.cell, other, n),
+                                .n = n});
   }
 
   // What the linear extrapolation lacks.
   void add_surface(Index cell, Index face, std::size_t side, const Second& here) {
     const Vector n = mesh_.face_area[face].normalized();
     const double to = to_face(cell, face), back = between(cell, walk_.cell_behind(cell, face));
-    append(side, cell, here, 0.5 * to * (to + back), n, n);
+    append_along(side, cell, here, 0.5 * to * (to + back), n);
+  }
+  // Of the linear extrapolation itself.
+  void add_turn_to_surface(Index cell, Index face, std::size_t side) {
+    const Index behind = walk_.cell_behind(cell, face);
+    if (behind < 0) return;
+    add_turn(side, cell, behind, -to_face(cell, face) / between(cell, behind), mesh_.face_area[face].normalized());
   }
 
   // Stresses of both cells count by their own distance from the face, so that derivatives along it are those as far
@@ -114,7 +169,7 @@ class LayerCurvature::Maker {
     const double a = to_face(cell, face), b = to_face(other, face);
     if (std::abs(a - b) <= even * (a + b)) return;
     const Vector n = mesh_.face_area[face].normalized();
-    append(side, cell, {.others = {other, -1, -1}, .parts = {1.0, 0.0, 0.0}}, (a - b) / (a + b), n, n);
+    append_along(side, cell, {.others = {other, -1, -1}, .parts = {1.0, 0.0, 0.0}}, (a - b) / (a + b), n);
     made_.leans_[side / 2] = 0.5 * (mesh_.owner[face] == cell ? a - b : b - a);
   }
 
@@ -124,12 +179,13 @@ class LayerCurvature::Maker {
     if (!there) return;
     const Vector n = mesh_.face_area[face].normalized();
     const double a = to_face(cell, face), b = to_face(other, face), d = a + b;
-    append(side, cell, mean_of(cell, here, other, *there), d * d / 24.0 - 0.5 * a * b, n, n);
+    append_along(side, cell, mean_of(cell, here, other, *there), d * d / 24.0 - 0.5 * a * b, n);
   }
 
   const Mesh& mesh_;
   const Unknowns& unknowns_;
   LineWalk walk_;
+  TurnedStiffness stiffness_;
   LayerCurvature& made_;
   std::vector<std::vector<std::pair<Index, std::size_t>>> sides_of_;
 };
@@ -143,14 +199,25 @@ LayerCurvature::LayerCurvature(const Mesh& mesh, const Unknowns& unknowns, std::
     maker.add(std::span(next, end));
     next = end;
   }
+  list_sides(sides.size(), surfaces);
+}
+
+void LayerCurvature::list_sides(std::size_t n_sides, std::span<const std::size_t> surfaces) {
   std::ranges::stable_sort(changes_, {}, &Change::side);
-  std::vector<char> is_surface(sides.size(), 0);
+  std::ranges::stable_sort(turns_, {}, &Turn::side);
+  std::vector<char> is_surface(n_sides, 0);
   for (const std::size_t side : surfaces) is_surface[side] = 1;
-  for (std::size_t k = 0; k < changes_.size(); ++k) {
-    const std::size_t side = changes_[k].side;
-    if (k == 0 || side != changes_[k - 1].side)
-      sides_.push_back({.side = side, .first = k, .end = k, .has_other = is_surface[side] != 0});
-    ++sides_.back().end;
+  std::size_t change = 0, turn = 0;
+  const auto next_side = [&](const auto& all, std::size_t k) { return k < all.size() ? all[k].side : n_sides; };
+  while (change < changes_.size() || turn < turns_.size()) {
+    OfSide on{
+        .side = std::min(next_side(changes_, change), next_side(turns_, turn)), .first = change, .first_turn = turn};
+    while (next_side(changes_, change) == on.side) ++change;
+    while (next_side(turns_, turn) == on.side) ++turn;
+    on.end = change;
+    on.end_turn = turn;
+    on.has_other = is_surface[on.side] != 0;
+    sides_.push_back(on);
   }
 }
 
@@ -160,6 +227,10 @@ void LayerCurvature::weigh(const CellField<double>& counts) {
     at.weight = counts[at.cell];
     for (const Index other : at.others)
       if (other >= 0) at.weight = std::min(at.weight, counts[other]);
+  });
+  parallel_for(count_of(turns_), [&](Index i) {
+    Turn& at = turns_[i];
+    at.weight = std::min(counts[at.cell], counts[at.other]);
   });
 }
 
@@ -173,6 +244,10 @@ void LayerCurvature::add(const CellField<Tensor>& gradients, std::vector<Tensor>
       for (std::size_t k = 0; k < at.others.size(); ++k)
         if (at.others[k] >= 0) sum += at.parts[k] * (gradients[at.others[k]] - gradients[at.cell]);
       all += at.weight * (sum - sum * at.across * at.dual.transpose());
+    }
+    for (std::size_t t = on.first_turn; t < on.end_turn; ++t) {
+      const Turn& at = turns_[t];
+      all += at.weight * (at.slope * to_mandel(symmetric_part(gradients[at.other]))) * at.n.transpose();
     }
     if (on.has_other)
       changes[on.side] += all;

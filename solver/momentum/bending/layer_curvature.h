@@ -56,14 +56,25 @@ class LayerCurvature {
     Vector across, dual;          // along this direction the derivative stays: G - G across dual^T
     double weight = 1.0;
   };
-  // All changes of a side.
+  // A slope across a side by the strain of another cell, whose axes are turned.
+  struct Turn {
+    std::size_t side;
+    Index cell, other;
+    Eigen::Matrix<double, 3, 6> slope;  // [-]
+    Vector n;
+    double weight = 1.0;
+  };
+  // All changes of a side, and all turns.
   struct OfSide {
-    std::size_t side, first, end;
-    bool has_other;
+    std::size_t side, first = 0, end = 0, first_turn = 0, end_turn = 0;
+    bool has_other = false;
   };
   class Maker;
 
+  void list_sides(std::size_t n_sides, std::span<const std::size_t> surfaces);
+
   std::vector<Change> changes_;  // ordered by sides
+  std::vector<Turn> turns_;      // likewise
   std::vector<OfSide> sides_;
   std::vector<double> leans_;  // by links
 };

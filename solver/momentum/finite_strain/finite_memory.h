@@ -9,6 +9,7 @@
 //
 // (finite_tractions.h), outwards from the cell; m is capped in polyhedra as the stiffness of their jumps is.
 
+#include "solver/momentum/body/cell_mechanics.h"
 #include "solver/momentum/faces/face_skeleton.h"
 #include "solver/momentum/finite_strain/finite_states.h"
 

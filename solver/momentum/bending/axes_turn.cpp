@@ -1,0 +1,49 @@
+#include "solver/momentum/bending/axes_turn.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pfdm {
+namespace {
+
+constexpr double longest = 0.7;       // cells over the thickness of the body
+constexpr double shear_for_it = 2.5;  // BendingLayers::shear
+constexpr std::size_t few = 3;
+
+double stiffer_in_shear(double shear) { return std::sqrt(std::max(1.0, shear / shear_for_it)); }
+
+double square(double x) { return x * x; }
+
+}  // namespace
+
+double AxesTurn::error() const {
+  const double of_steps = (is_of_few ? 0.15 : 0.08) * square(step / std::max(1.0, most));
+  const double of_plies = plies > 0.0 ? 0.13 * square(plies / (2.0 * std::max(0.3, most))) : 0.0;
+  return std::max(of_steps, of_plies);
+}
+
+double AxesTurn::error_of_long(double length, double shear) const {
+  return std::min(1.0, 4.0 * range) * std::max(0.0, length * stiffer_in_shear(shear) - longest);
+}
+
+double AxesTurn::length_for(double error, double shear) { return (longest + error) / stiffer_in_shear(shear); }
+
+AxesTurn axes_turn(std::span<const TurnedLayer> layers) {
+  AxesTurn turn{.is_of_few = layers.size() <= few};
+  for (const TurnedLayer& in : layers) turn.most = std::max(turn.most, std::abs(in.R));
+  std::ptrdiff_t before = 0;  // layers of the material before
+  for (auto first = layers.begin(); first != layers.end();) {
+    const auto end = std::find_if(first, layers.end(), [&](const TurnedLayer& in) { return in.zone != first->zone; });
+    const auto [least, greatest] = std::ranges::minmax(std::span(first, end), {}, &TurnedLayer::R);
+    turn.range = std::max(turn.range, greatest.R - least.R);
+    for (auto at = first + 1; at < end; ++at) turn.step = std::max(turn.step, std::abs(at->R - (at - 1)->R));
+    if (first != layers.begin() && (before == 2 || end - first == 2))
+      turn.plies = std::max(turn.plies, std::abs(first->R - (first - 1)->R));
+    before = end - first;
+    first = end;
+  }
+  if (turn.is_of_few) turn.step = turn.range;
+  return turn;
+}
+
+}  // namespace pfdm

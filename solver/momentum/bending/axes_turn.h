@@ -1,0 +1,38 @@
+#pragma once
+// How the axes of materials turn from layer to layer of a body that bends, and what that costs.
+
+#include "mesh/fields.h"
+
+#include <span>
+
+namespace pfdm {
+
+/// A layer: the material that it is of, and R: minus the shear angle without shear stress that a strain along the
+/// layers makes, over that strain [-].
+struct TurnedLayer {
+  Index zone = -1;
+  double R = 0.0;
+};
+
+/// Zero where axes do not turn.
+struct AxesTurn {
+  double step = 0.0;       ///< largest difference of R of two layers side by side; of three layers or fewer of any two
+  double range = 0.0;      ///< largest difference of R of any two of a material
+  double most = 0.0;       ///< largest R without regard to sign
+  double plies = 0.0;      ///< largest difference of R between materials side by side, one of them of two layers
+  bool is_of_few = false;  ///< three layers or fewer
+
+  /// Error of the bending stiffness (bending.md). 0.08 (step/max(1, most))^2, of three layers or fewer 0.15, either
+  /// way; or of plies 0.13 (plies/(2 most))^2, too much.
+  double error() const;
+  /// Likewise of cells of this length over the thickness of the body, `shear` as of BendingLayers: length/thickness
+  /// max(1, shear/2.5)^(1/2) - 0.7, less where the range is below a quarter.
+  double error_of_long(double length, double shear) const;
+  /// The length over the thickness at which that is no more than an error.
+  static double length_for(double error, double shear);
+};
+
+/// Of layers from one surface to the opposite one.
+AxesTurn axes_turn(std::span<const TurnedLayer> layers);
+
+}  // namespace pfdm
