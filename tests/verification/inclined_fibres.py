@@ -22,7 +22,7 @@ def turned(about, degrees):
     c, s = np.cos(np.radians(degrees)), np.sin(np.radians(degrees))
     return np.array({"z": [[c, -s, 0], [s, c, 0], [0, 0, 1]], "y": [[c, 0, s], [0, 1, 0], [-s, 0, c]]}[about])
 def deflection(C, cells, width, is_plane, span=25e-3, height=1.5e-3):
-    """Mean deflection of the end along y [m] under 1 N, clamped at x = 0."""
+    """Mean deflection of the end along y [m] under 1 N, clamped at x = 0; C of all elements, or of each."""
     t = np.linspace(0, 1, cells[0]+1)
     X, Y = span*(t - .7*np.sin(2*np.pi*t)/(2*np.pi)), np.linspace(0, height, cells[1]+1)
     t = np.linspace(0, 1, cells[2]+1)
@@ -59,6 +59,11 @@ def deflection(C, cells, width, is_plane, span=25e-3, height=1.5e-3):
     u = sl.splu(A[free][:, free].tocsc(), permc_spec="MMD_AT_PLUS_A", options=dict(SymmetricMode=True)).solve(force[free])
     return force[free]@u
 
+def across(cells, stiffness_at):
+    """C of each element by its place across, 0 to 1."""
+    j = np.arange(cells[0]*cells[1]*cells[2])//cells[2] % cells[1]
+    return np.array([stiffness_at((k + .5)/cells[1]) for k in range(cells[1])])[j]
+
 if __name__ == "__main__":
     constants = (140e9, 10e9, 10e9), (.3, .4, .3), (5e9, 3.6e9, 5e9)
     for angle in (15, 30, 45, 60):
@@ -68,5 +73,11 @@ if __name__ == "__main__":
                        ("z 30 and y 30", turned("y", 30)@turned("z", 30))):
         C = stiffness(*constants, axes)
         print(name, *(f"{deflection(C, cells, 6e-3, False):.5e}" for cells in ((16, 3, 5), (24, 4, 8))))
+    for a, b in ((30, 35), (30, 60), (60, 30), (-20, 20), (-30, 30)):
+        at = lambda y: stiffness(*constants, turned("z", a + (b - a)*y))
+        print(f"slice of 1 m, {a} to {b} degrees", *(f"{deflection(across(cells, at), cells, 1.0, True):.5e}" for cells in ((40, 16, 1), (60, 32, 1))))
+    for a, b in ((30, 40), (30, 60)):
+        at = lambda y: stiffness(*constants, turned("z", a + (b - a)*y))
+        print(f"z {a} to {b}", *(f"{deflection(across(cells, at), cells, 6e-3, False):.5e}" for cells in ((16, 8, 5), (16, 12, 8))))
     bar = deflection(stiffness(*constants, turned("z", 30)), (24, 4, 4), 1.5e-3, False)
     print(f"bar 1.5 mm wide, z 30, under 1 N/m of its width {1.5e-3*bar:.5e}")

@@ -6,9 +6,10 @@
 namespace pfdm {
 namespace {
 
-constexpr double longest = 0.7;       // cells over the thickness of the body
+constexpr double longest = 0.65;      // cells over the thickness of the body
 constexpr double shear_for_it = 2.5;  // BendingLayers::shear
 constexpr std::size_t few = 3;
+constexpr double least_of_lone = 0.02;  // R
 
 double stiffer_in_shear(double shear) { return std::sqrt(std::max(1.0, shear / shear_for_it)); }
 
@@ -17,10 +18,12 @@ double square(double x) { return x * x; }
 }  // namespace
 
 double AxesTurn::error() const {
+  if (has_lone_plies) return 3.0;
   const double of_steps = (is_of_few ? 0.15 : 0.08) * square(step / std::max(1.0, most));
-  const double of_plies = plies > 0.0 ? 0.13 * square(plies / (2.0 * std::max(0.3, most))) : 0.0;
-  return std::max(of_steps, of_plies);
+  return std::max(of_steps, error_of_plies());
 }
+
+double AxesTurn::error_of_plies() const { return plies > 0.0 ? 0.13 * plies / (2.0 * std::max(0.3, most)) : 0.0; }
 
 double AxesTurn::error_of_long(double length, double shear) const {
   return std::min(1.0, 4.0 * range) * std::max(0.0, length * stiffer_in_shear(shear) - longest);
@@ -36,13 +39,18 @@ AxesTurn axes_turn(std::span<const TurnedLayer> layers) {
     const auto end = std::find_if(first, layers.end(), [&](const TurnedLayer& in) { return in.zone != first->zone; });
     const auto [least, greatest] = std::ranges::minmax(std::span(first, end), {}, &TurnedLayer::R);
     turn.range = std::max(turn.range, greatest.R - least.R);
+    if (turn.is_of_few) turn.step = turn.range;
     for (auto at = first + 1; at < end; ++at) turn.step = std::max(turn.step, std::abs(at->R - (at - 1)->R));
-    if (first != layers.begin() && (before == 2 || end - first == 2))
-      turn.plies = std::max(turn.plies, std::abs(first->R - (first - 1)->R));
+    const bool is_alone = end - first == std::ssize(layers);
+    turn.has_lone_plies |= end - first == 1 && !is_alone && std::abs(first->R) > least_of_lone;
+    if (first != layers.begin()) {
+      const double jump = std::abs(first->R - (first - 1)->R);
+      turn.range = std::max(turn.range, jump);
+      if (before == 2 || end - first == 2) turn.plies = std::max(turn.plies, jump);
+    }
     before = end - first;
     first = end;
   }
-  if (turn.is_of_few) turn.step = turn.range;
   return turn;
 }
 

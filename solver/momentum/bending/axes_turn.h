@@ -17,16 +17,18 @@ struct TurnedLayer {
 /// Zero where axes do not turn.
 struct AxesTurn {
   double step = 0.0;       ///< largest difference of R of two layers side by side; of three layers or fewer of any two
-  double range = 0.0;      ///< largest difference of R of any two of a material
+  double range = 0.0;      ///< largest difference of R of any two, of a material or on both sides of the end of one
   double most = 0.0;       ///< largest R without regard to sign
   double plies = 0.0;      ///< largest difference of R between materials side by side, one of them of two layers
   bool is_of_few = false;  ///< three layers or fewer
+  bool has_lone_plies = false;  ///< a material among others is of one layer and has an R
 
   /// Error of the bending stiffness (bending.md). 0.08 (step/max(1, most))^2, of three layers or fewer 0.15, either
-  /// way; or of plies 0.13 (plies/(2 most))^2, too much.
+  /// way; of plies 0.13 plies/(2 most), too much; 3 of lone ones, of which it is not known.
   double error() const;
+  double error_of_plies() const;
   /// Likewise of cells of this length over the thickness of the body, `shear` as of BendingLayers: length/thickness
-  /// max(1, shear/2.5)^(1/2) - 0.7, less where the range is below a quarter.
+  /// max(1, shear/2.5)^(1/2) - 0.65, less where the range is below a quarter.
   double error_of_long(double length, double shear) const;
   /// The length over the thickness at which that is no more than an error.
   static double length_for(double error, double shear);

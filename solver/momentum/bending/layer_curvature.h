@@ -19,6 +19,10 @@
 // is from the other. Both are taken to the face, by the linear variation between the two cells. Else an error of the
 // first order remains, a traction of C_as times the curvature times a quarter of the difference of both thicknesses:
 // layers that grow by a twentieth each were 25 % too stiff.
+//
+// Where the material axes turn from layer to layer, all of these are those of the slope that derivatives along the
+// layers make, too (turned_stiffness.h). And lines give the derivative across of the outermost cells with 19/288 d^2
+// of its second derivative, as the slope at a free surface is that at a place.
 
 #include "mesh/mesh.h"
 #include "solver/momentum/bending/bending_layers.h"
