@@ -20,7 +20,7 @@ double round_down(double x) {
 
 }  // namespace
 
-bool holds_all(double residual, double elastic) { return residual > everything * elastic; }
+bool holds_all(double residual, double elastic) { return residual > everything * std::abs(elastic); }
 
 bool has_collapsed(const ResidualShare& share) {
   return holds_all(share.residual, share.elastic) && share.traction_work > std::max(share.elastic, 0.0);
@@ -29,7 +29,8 @@ bool has_collapsed(const ResidualShare& share) {
 std::string ResidualStiffness::remark(const ResidualShare& share, double energy_before, double load) {
   const double by = is_proportional_ ? std::abs(load) : 1.0;
   largest_ = std::max(largest_, std::max(share.elastic, energy_before) / by);
-  if (said_ || !(share.residual / by > bearable * largest_)) return "";
+  // A body that eigenstrains bend freely stores next to nothing, of either sign.
+  if (said_ || !(share.elastic > 0.0) || !(share.residual / by > bearable * largest_)) return "";
   said_ = true;
   const double part = share.residual / share.elastic;
   if (holds_all(share.residual, share.elastic))

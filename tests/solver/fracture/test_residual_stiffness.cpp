@@ -48,6 +48,12 @@ TEST(ResidualStiffness, OfABodyThatIsInTwoFromTheBeginning) {
               HasSubstr("through the whole body"));
 }
 
+TEST(ResidualStiffness, OfABodyThatIsBentFreelyIsNone) {
+  ResidualStiffness watch(1e-6);
+  EXPECT_THAT(watch.remark({.elastic = -1e-9, .residual = 1e-15, .traction_work = 0.0}, -1e-9, 0.1), IsEmpty());
+  EXPECT_FALSE(holds_all(1e-15, -1e-9));
+}
+
 TEST(ResidualStiffness, HoldsDeadLoadsOnlyWhereAllIsLost) {
   EXPECT_TRUE(has_collapsed({.elastic = 1.0, .residual = 0.99, .traction_work = 2.0}));
   EXPECT_FALSE(

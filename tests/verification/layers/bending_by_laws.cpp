@@ -169,7 +169,9 @@ TEST(BendingByLaws, OfAnEigenstrainStaysWhileTheMaterialRelaxes) {
     model.regions[0].eigenstrain = std::make_shared<const LoadField<Tensor>>([](const Vector& x, double t) -> Tensor {
       return Vector(std::min(t / ramp, 1.0) * slope * (x.y() - height / 2.0), 0.0, 0.0).asDiagonal();
     });
-    FractureRun run(mesh, model, tight, over(10.0, ramp, 0.05));
+    // The energy of a free body is rounding, whose changes are as large as it is.
+    FractureRun run(mesh, model, {.damage_tolerance = 1e-9, .energy_tolerance = 1e-2, .equilibrium_tolerance = 1e-10},
+                    over(10.0, ramp, 0.1));
     const auto end = mesh.patch_index("xmax");
     double worst = 0.0;
     run_to_end(run, [&](const FractureState&, const StepReport& report) {
