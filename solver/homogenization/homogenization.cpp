@@ -22,6 +22,8 @@ Tensor unit(std::size_t k) { return to_tensor(Mandel::Unit(static_cast<Index>(k)
 
 ElasticBody body_of(const Mesh& mesh, const LinearComposite& composite, const BoxSides& sides, const Loading& loading) {
   ElasticBody body{.elasticity = composite.elasticity, .zone = composite.zone, .boundary = {}};
+  body.stiffness = composite.stiffness;
+  body.has_pressure = !composite.stiffness;
   if (loading.by_traction) {
     body.motion.held = three_two_one_supports(mesh, sides);
     return body;
@@ -56,7 +58,11 @@ class BoxInLoadCases {
         unknowns_(place_unknowns(mesh, body_of(mesh, composite, sides_, loading_))),
         moduli_(moduli_of(mesh, composite)),
         solver_(mesh, unknowns_, settings.linear) {
-    solver_.set_moduli(moduli_, CellField<double>(mesh.n_cells(), 1.0));
+    const CellField<double> sound(mesh.n_cells(), 1.0);
+    if (unknowns_.stiffness)
+      solver_.set_law(strain_law(), sound, std::vector<Vector>(unknowns_.n_unknowns(), Vector::Zero()));
+    else
+      solver_.set_moduli(moduli_, sound);
   }
 
   LoadCase solve(std::size_t k);
@@ -67,6 +73,14 @@ class BoxInLoadCases {
   Index n_unknowns() const { return unknowns_.n_unknowns(); }
 
  private:
+  MandelMatrix stiffness(Index cell) const {
+    const MandelMatrix* directed = unknowns_.stiffness_of(mesh_, cell);
+    return directed != nullptr ? *directed : stiffness_matrix(moduli_[cell]);
+  }
+  StrainLaw strain_law() const {
+    return {.tangent = [this](Index cell, const Tensor&) { return stiffness(cell); },
+            .degradable = [](Index, const Tensor&) -> Tensor { return Tensor::Zero(); }};
+  }
   std::vector<Vector> forces_on_sides(std::size_t k) const;
   std::vector<Vector> first_guess(std::size_t k) const;
   void average(const std::vector<Vector>& u, LoadCase& result) const;
@@ -119,7 +133,8 @@ void BoxInLoadCases::average(const std::vector<Vector>& u, LoadCase& result) con
   const CellMechanics cells = solver_.balance().mechanics(u, MomentumOperator::Wanted::without_gradient);
   Tensor constitutive = Tensor::Zero();
   for (Index c = 0; c < mesh_.n_cells(); ++c)
-    constitutive += mesh_.cell_volume[c] * pfdm::stress(moduli_[c], cells.strain[c]);
+    constitutive += mesh_.cell_volume[c] * (unknowns_.stiffness ? to_tensor(stiffness(c) * to_mandel(cells.strain[c]))
+                                                                : pfdm::stress(moduli_[c], cells.strain[c]));
   result.constitutive_stress = to_mandel(constitutive / volume());
 }
 

@@ -38,6 +38,8 @@ struct LinearComposite {
   std::vector<IsotropicElasticity> elasticity;  ///< of each region of the mesh
   std::vector<Index> zone;                      ///< as in ElasticBody
   CellField<IsotropicElasticity> cells{};       ///< where it varies from cell to cell; else empty
+  /// As of ElasticBody: where it depends on the direction; those above are then the closest isotropic ones.
+  DirectedStiffness stiffness{};
 };
 
 struct HomogenizationSettings {

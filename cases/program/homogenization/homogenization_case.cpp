@@ -70,6 +70,7 @@ LinearComposite composite_on(const HomogenizationCase& homogenization, const Mes
   place_materials(homogenization.materials, mesh, model);
   ElasticBody body = elastic_body(model);
   LinearComposite composite{.elasticity = std::move(body.elasticity), .zone = std::move(body.zone)};
+  composite.stiffness = std::move(body.stiffness);
   if (model.cells.size() == 0) return composite;
   composite.cells = CellField<IsotropicElasticity>(mesh.n_cells());
   for (Index c = 0; c < mesh.n_cells(); ++c) composite.cells[c] = model.cells[c].elasticity;

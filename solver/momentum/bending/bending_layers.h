@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace pfdm {
@@ -109,6 +110,15 @@ struct BendingCell {
   double thickness = 0.0;       ///< of all layers, of half models that of the whole body [m]
   double zone_thickness = 0.0;  ///< of the layers of the cell's own zone [m]
 };
+
+/// Calls see(entries of one cell) of all cells, whose entries follow one another.
+template <class See>
+void over_cells(std::span<const BendingCell> cells, const See& see) {
+  for (std::size_t first = 0, end = 0; first < cells.size(); first = end) {
+    while (end < cells.size() && cells[end].cell == cells[first].cell) ++end;
+    see(cells.subspan(first, end - first));
+  }
+}
 
 /// All cells of bodies at least three times as long as thick, whatever the error; a cell of a plate is listed for both
 /// directions in which the plate is long. None in boxes that follow a mean strain.

@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
-#include <utility>
 
 namespace pfdm {
 
@@ -21,9 +20,7 @@ class LayerCurvature::Maker {
         walk_(mesh, unknowns),
         stiffness_(mesh, unknowns),
         made_(made),
-        sides_of_(mesh.n_cells()) {
-    for (std::size_t k = 0; k < sides.size(); ++k) sides_of_[sides[k].cell].emplace_back(sides[k].face, k);
-  }
+        sides_of_(sides_of_cells(mesh, sides)) {}
 
   // Across the thinnest layers, which bend the most; across others torsion would be too stiff.
   void add(std::span<const BendingCell> all) {
@@ -187,18 +184,14 @@ class LayerCurvature::Maker {
   LineWalk walk_;
   TurnedStiffness stiffness_;
   LayerCurvature& made_;
-  std::vector<std::vector<std::pair<Index, std::size_t>>> sides_of_;
+  SidesOfCells sides_of_;
 };
 
 LayerCurvature::LayerCurvature(const Mesh& mesh, const Unknowns& unknowns, std::span<const CubicFaces::Side> sides,
                                const std::vector<BendingCell>& cells, std::span<const std::size_t> surfaces) {
   leans_.assign(sides.size() / 2 + 1, 0.0);
   Maker maker(mesh, unknowns, sides, *this);
-  for (auto next = cells.begin(); next != cells.end();) {
-    const auto end = std::find_if(next, cells.end(), [&](const BendingCell& in) { return in.cell != next->cell; });
-    maker.add(std::span(next, end));
-    next = end;
-  }
+  over_cells(cells, [&](std::span<const BendingCell> of_one) { maker.add(of_one); });
   list_sides(sides.size(), surfaces);
 }
 

@@ -28,8 +28,7 @@ class LayerGradients::Maker {
         links_(links),
         has_all_sides_(own == OwnSides::surfaces_ends_and_interfaces),
         made_(made),
-        sides_of_(mesh.n_cells()) {
-    for (std::size_t k = 0; k < sides.size(); ++k) sides_of_[sides[k].cell].emplace_back(sides[k].face, k);
+        sides_of_(sides_of_cells(mesh, sides)) {
     made.sound_weights_.assign(links.size(), Tensor::Identity());
     made.counting_ = CellField<double>(mesh.n_cells(), 1.0);
     made.is_covered_ = CellField<char>(mesh.n_cells(), 0);
@@ -274,7 +273,7 @@ class LayerGradients::Maker {
   const std::vector<momentum_faces::Link>& links_;
   bool has_all_sides_;
   LayerGradients& made_;
-  std::vector<std::vector<std::pair<Index, std::size_t>>> sides_of_;
+  SidesOfCells sides_of_;
   std::vector<Index> has_line_, has_surface_;  // faces of the last cell
 };
 
@@ -284,11 +283,7 @@ LayerGradients::LayerGradients(const Mesh& mesh, const Unknowns& unknowns, const
     : counts_(!cells.empty()) {
   if (cells.empty()) return;
   Maker maker(mesh, unknowns, sides, links, own, *this);
-  for (auto next = cells.begin(); next != cells.end();) {
-    const auto end = std::find_if(next, cells.end(), [&](const BendingCell& in) { return in.cell != next->cell; });
-    maker.add({next, end});
-    next = end;
-  }
+  over_cells(cells, [&](std::span<const BendingCell> of_one) { maker.add(of_one); });
   weights_ = sound_weights_;
   if (unknowns.stiffness) curvature_ = LayerCurvature(mesh, unknowns, sides, cells, surface_sides());
 }

@@ -4,12 +4,25 @@
 #include "mesh/mesh.h"
 #include "physics/elasticity/anisotropy.h"
 #include "solver/momentum/bending/bending_layers.h"
+#include "solver/momentum/bending/cubic_faces.h"
 #include "solver/momentum/body/unknowns.h"
 
 #include <algorithm>
 #include <array>
+#include <span>
+#include <utility>
+#include <vector>
 
 namespace pfdm {
+
+/// Of each cell the faces of its sides with the sides' numbers.
+using SidesOfCells = CellField<std::vector<std::pair<Index, std::size_t>>>;
+
+inline SidesOfCells sides_of_cells(const Mesh& mesh, std::span<const CubicFaces::Side> sides) {
+  SidesOfCells of_cells(mesh.n_cells());
+  for (std::size_t k = 0; k < sides.size(); ++k) of_cells[sides[k].cell].emplace_back(sides[k].face, k);
+  return of_cells;
+}
 
 class LineWalk {
  public:

@@ -164,4 +164,13 @@ std::span<const BoundaryType> boundary_types() { return type_table; }
 
 std::span<const DisplacementField> displacement_fields() { return field_table; }
 
+bool acts_on(std::string_view patch, std::span<const BoundarySettings> boundary) {
+  return std::ranges::any_of(boundary, [&](const BoundarySettings& settings) {
+    const BoundaryCondition& on = settings.condition;
+    const bool is_free = on.kind == BoundaryCondition::Kind::components && !on.value && !on.pressure &&
+                         std::ranges::none_of(on.displacement_prescribed, std::identity{});
+    return on.patch == patch && !is_free;
+  });
+}
+
 }  // namespace pfdm

@@ -22,6 +22,9 @@ struct BoundarySettings {
 /// Of every patch that `root`, the whole case file, names; throws InputError for a patch that is named twice.
 std::vector<BoundarySettings> read_boundary(const ConfigTable& root, const Materials& materials);
 
+/// Whether any condition acts on a patch: the force on a free one is nothing but rounding.
+bool acts_on(std::string_view patch, std::span<const BoundarySettings> boundary);
+
 /// What `type` may be.
 struct BoundaryType {
   std::string_view name;

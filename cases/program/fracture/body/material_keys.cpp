@@ -94,9 +94,12 @@ std::vector<Key> overriding(std::vector<Key> rows) {
   return rows;
 }
 
-std::vector<Key> required(std::vector<Key> rows) {
-  for (Key& row : rows) row.otherwise.clear();
-  return rows;
+std::vector<Key> anisotropy_rows() {
+  using namespace keys;
+  return {
+      {"elasticity", either({table(orthotropic_keys), table(cubic_keys), table(general_stiffness_keys)}), "isotropic",
+       "Anisotropic elasticity in place of Young's modulus and Poisson's ratio: orthotropic, cubic or general."},
+      {"axes", table(axes_keys), "x, y, z", "Axes of an anisotropic material, uniform or fields, as of fibres."}};
 }
 
 /// Of materials and of regions.
@@ -115,10 +118,8 @@ std::vector<Key> rows_in_common() {
         {"expansion", either({expansion.parts[0], expansion.parts[1], list(expansion, 3, 3)}), "0",
          "Coefficient of thermal expansion, one or three along x, y, z or the material's axes."},
         {"eigenstrain", list(strain, 3, 6), "0",
-         "Strain that makes no stress (misfit, shrinkage, swelling): three components xx, yy, zz or six."},
-        {"elasticity", either({table(orthotropic_keys), table(cubic_keys), table(general_stiffness_keys)}), "isotropic",
-         "Anisotropic elasticity in place of Young's modulus and Poisson's ratio: orthotropic, cubic or general."},
-        {"axes", table(axes_keys), "x, y, z", "Axes of an anisotropic material, uniform or fields, as of fibres."}}});
+         "Strain that makes no stress (misfit, shrinkage, swelling): three components xx, yy, zz or six."}},
+       anisotropy_rows()});
 }
 
 /// One value, or three along x, y and z.
@@ -203,7 +204,7 @@ const KeyTable& elastic_material_keys() {
   static const KeyTable table{
       .name = "materials.NAME, elastic",
       .sentence = "A material of a body in which only interfaces break.",
-      .keys = keys::joined({{regions_row()}, required(rows_of(std::span(quantities).first(n_elastic)))})};
+      .keys = keys::joined({{regions_row()}, rows_of(std::span(quantities).first(n_elastic)), anisotropy_rows()})};
   return table;
 }
 
@@ -247,8 +248,13 @@ MaterialKeys read_keys(const ConfigTable& table, bool loads_from_start) {
 
 MaterialKeys read_elastic_keys(const ConfigTable& table) {
   MaterialKeys keys;
-  for (const Quantity& quantity : std::span(quantities).first(n_elastic))
-    keys.*quantity.value = read_parameter(table.at(quantity.key));
+  const auto elasticity = table.find("elasticity");
+  if (elasticity)
+    read_stiffness(table, *elasticity, keys);
+  else
+    for (const Quantity& quantity : std::span(quantities).first(n_elastic))
+      keys.*quantity.value = read_parameter(table.at(quantity.key));
+  if (const auto value = table.find("axes")) keys.axes = read_axes(*value);
   keys.damageable = false;
   return keys;
 }

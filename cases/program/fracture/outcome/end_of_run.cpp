@@ -49,10 +49,16 @@ Peak peak_of(const RunSummary& summary, const FractureCase& fracture, const Axes
       summary.other_figure(fmt::format("final_{}_Pa", axes.y)), summary.other_figure(fmt::format("final_{}", axes.x))};
 }
 
+bool moves_freely(const FractureCase& fracture) { return !fracture.box && !acts_on(fracture.output.curve.patch, fracture.boundary); }
+
 /// "greatest force 27.08 N at 624 um, the end of the curve"
 std::vector<std::string> lines_of_curve(const RunSummary& summary, const FractureCase& fracture,
                                         const CurveUnits& units) {
   if (!summary.figures) return {};
+  if (moves_freely(fracture))
+    return {fmt::format("displacement of \"{}\" along {} at the end {}; it is free", fracture.output.curve.patch,
+                        "xyz"[fracture.output.curve.component],
+                        shown_in(units.displacement, summary.figures->final_displacement))};
   const Axes axes = axes_of(fracture, units);
   const Peak peak = peak_of(summary, fracture, axes);
   const std::string x = fracture.box ? axes.x + " = " : std::string();
@@ -222,7 +228,12 @@ std::vector<HeadFigure> run_figures(const FractureCase& fracture, const CurveUni
   } else if (summary.other_figures.contains("first_debonding_load")) {
     figures.push_back({.label = "Debonding", .value = "none", .note = "every surface holds"});
   }
-  if (summary.figures) {
+  if (summary.figures && moves_freely(fracture)) {
+    figures.push_back({.label = "Displacement",
+                       .value = shown_in(axes.x_shown, summary.figures->final_displacement),
+                       .note = fmt::format("of \"{}\" along {} at the end; it is free", fracture.output.curve.patch,
+                                           "xyz"[fracture.output.curve.component])});
+  } else if (summary.figures) {
     const Peak peak = peak_of(summary, fracture, axes);
     figures.push_back(
         {.label = fmt::format("Greatest {}", axes.y_words),

@@ -44,7 +44,7 @@ BrowserPage LivePages::page(std::span<const CurveRow> rows) const {
                    .case_text = live_.file.text,
                    .steps = {},
                    .body = std::nullopt};
-  if (!live_.fracture.box)
+  if (!live_.fracture.box && acts_on(live_.fracture.output.curve.patch, live_.fracture.boundary))
     page.figures.push_back({.label = "Greatest force",
                             .value = shown(f.peak_force, "N"),
                             .note = fmt::format("at {}", shown(f.displacement_at_peak, "m"))});

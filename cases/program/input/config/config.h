@@ -73,11 +73,7 @@ class ConfigTable {
   void remark(std::string_view message) const;  ///< as of a value
   template <class Make>
   auto in_context(const Make& make) const {
-    try {
-      return make();
-    } catch (const InputError& cause) {
-      throw error(cause.what());
-    }
+    return placed_at(*this, make);
   }
 
  private:

@@ -44,6 +44,16 @@ struct ConfigSource;
 class ConfigTable;
 struct KeyType;
 
+/// Calls `make`; an InputError that it throws gets the place of a value or table.
+template <class Where, class Make>
+auto placed_at(const Where& where, const Make& make) {
+  try {
+    return make();
+  } catch (const InputError& cause) {
+    throw where.error(cause.what());
+  }
+}
+
 /// One value of the file, with its place for messages.
 class ConfigValue {
  public:
@@ -83,11 +93,7 @@ class ConfigValue {
   /// Calls `make`; an InputError that it throws gets this value's place.
   template <class Make>
   auto in_context(const Make& make) const {
-    try {
-      return make();
-    } catch (const InputError& cause) {
-      throw error(cause.what());
-    }
+    return placed_at(*this, make);
   }
 
  private:
