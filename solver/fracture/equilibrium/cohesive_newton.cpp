@@ -100,7 +100,8 @@ class FacesNewton {
       if (whole_.converged || !std::isfinite(step.residual)) return whole_;
       const bool solved = step.residual < bearable_rest * residual;
       if (residual <= tolerance_.good_enough && !(solved && residual < falls * last)) return without_last_step();
-      if (!has_rate_ && (way_out_.is_marching() || residual > falls * last)) settle();
+      // After the first solve, too: what is left of it takes stiff faces far beyond their strength.
+      if (!has_rate_ && (k == 0 || way_out_.is_marching() || residual > falls * last)) settle();
       last = residual;
       way_ = way_out_.next(residual, solved, u_);
       if (cells_) cells_();

@@ -52,6 +52,31 @@ nlohmann::json results_of(const TemporaryCase& directory) {
   return nlohmann::json::parse(content_of(directory.results() / "homogenized.json"));
 }
 
+std::string of_crystals(const std::string& more = "") {
+  const std::string crystal = "elasticity = { C11 = \"168.4 GPa\", C12 = \"121.4 GPa\", C44 = \"75.4 GPa\" }\n" + more;
+  return replaced(replaced(laminate(), "young_modulus = \"10 MPa\"\npoisson_ratio = 0.4\n", crystal),
+                  "young_modulus = \"200 GPa\"\npoisson_ratio = 0.3\n", crystal);
+}
+
+// Turned by 45 degrees about z, C11 and C12 become (C11 + C12)/2 +- C44.
+TEST(HomogenizationCase, TakesCrystalsAndTheirAxes) {
+  const TemporaryCase along(of_crystals()), turned(of_crystals("axes = { first = [1, 1, 0], second = [-1, 1, 0] }\n"));
+  for (const TemporaryCase* directory : {&along, &turned}) {
+    const Outcome outcome = run({"run", directory->path().string(), "--threads", "1"});
+    ASSERT_EQ(outcome.status, 0) << outcome.err;
+    const nlohmann::json results = results_of(*directory);
+    const auto C = results["stiffness_Pa"].get<std::vector<std::vector<double>>>();
+    const bool is_turned = directory == &turned;
+    EXPECT_NEAR(C[0][0] / 1e9, is_turned ? 144.9 + 75.4 : 168.4, 1e-6);
+    EXPECT_NEAR(C[0][1] / 1e9, is_turned ? 144.9 - 75.4 : 121.4, 1e-6);
+    EXPECT_NEAR(C[2][2] / 1e9, 168.4, 1e-6);
+    EXPECT_NEAR(C[5][5] / 1e9, is_turned ? 0.5 * (168.4 - 121.4) : 75.4, 1e-6);
+    EXPECT_FALSE(results.contains("bounds"));
+  }
+  const TemporaryCase both(of_crystals("young_modulus = \"1 GPa\"\n"));
+  EXPECT_THAT(run({"check", both.path().string()}).err, HasSubstr("the material has its elasticity already"));
+}
+
 double constrained_modulus(double E, double nu) { return E * (1.0 - nu) / ((1.0 + nu) * (1.0 - 2.0 * nu)); }
 
 TEST(HomogenizationCase, LaminateHasItsExactStiffnessDensityAndLoss) {

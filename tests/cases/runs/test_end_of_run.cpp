@@ -60,6 +60,16 @@ TEST(EndOfRun, SaysThatAllHolds) {
   EXPECT_THAT(outcome.out, HasSubstr("No debonding: every surface holds"));
 }
 
+// What acts on a free patch is rounding, and nothing of it rises.
+TEST(EndOfRun, OfAFreePatchIsItsDisplacement) {
+  const TemporaryCase glued(
+      replaced(glued_blocks(linear_glue), "patch = \"xmax\", component", "patch = \"ymax\", component"));
+  const Outcome outcome = run({"run", glued.path().string()});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("Displacement of \"ymax\" along x at the end 0.06 mm; it is free."));
+  EXPECT_THAT(outcome.out, testing::Not(HasSubstr("Greatest force")));
+}
+
 // The runs of a sweep record no columns, and know the first debonding all the same.
 TEST(EndOfRun, IsInTheTableOfASweep) {
   const TemporaryCase glued(glued_blocks(linear_glue) + R"(
