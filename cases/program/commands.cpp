@@ -282,7 +282,7 @@ std::optional<CommandLine> read_command_line(const std::vector<std::string>& arg
 
 std::string unknown_command(const std::string& word) {
   const Parser parser;
-  return words_on_unknown(word, names_of_commands(parser.app));
+  return fmt::format("unknown command \"{}\"{}", word, did_you_mean(word, names_of_commands(parser.app)));
 }
 
 std::vector<CommandWords> command_words() {

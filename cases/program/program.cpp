@@ -232,10 +232,12 @@ void help_on(const std::string& key, std::ostream& out) {
     return;
   }
   const std::vector<std::string> near = keys_like(key, kinds);
-  throw InputError(fmt::format(
-      "{}; nor is it a key of case.toml{}{}", unknown_command(key),
-      near.empty() ? "" : fmt::format(" (keys like it: {})", fmt::join(near, ", ")),
-      kinds.size() < std::size(all_kind_names) ? "; this program knows those of fracture cases alone" : ""));
+  const bool knows_all = kinds.size() == std::size(all_kind_names);
+  throw InputError(fmt::format("{}; nor is it a key of case.toml{}, or a word that one tells of{}",
+                               unknown_command(key),
+                               near.empty() ? "" : fmt::format(" (keys like it: {})", fmt::join(near, ", ")),
+                               knows_all ? "; all keys: cases/reference; all else: the search of pfdm docs"
+                                         : "; this program knows those of fracture cases alone"));
 }
 
 void do_command(const CommandLine& line, std::ostream& out, std::ostream& err, bool terminal) {

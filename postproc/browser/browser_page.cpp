@@ -66,8 +66,23 @@ Json json_of(const Chart& chart) {
           {"series", series}};
 }
 
+/// Rows whose values have the signs of print; names and words stay as they are.
+std::vector<std::vector<std::string>> rows_in_print(std::vector<std::vector<std::string>> rows) {
+  const auto begins_with_digit = [](std::string_view cell) {
+    const std::size_t at = cell.starts_with('-') ? 1 : 0;
+    return at < cell.size() && cell[at] >= '0' && cell[at] <= '9';
+  };
+  for (auto& row : rows)
+    for (std::string& cell : row)
+      if (begins_with_digit(cell)) cell = in_print(std::move(cell));
+  return rows;
+}
+
 Json json_of(const Table& table) {
-  return {{"kind", "table"}, {"caption", table.caption}, {"has_header", table.has_header}, {"rows", table.rows}};
+  return {{"kind", "table"},
+          {"caption", table.caption},
+          {"has_header", table.has_header},
+          {"rows", rows_in_print(table.rows)}};
 }
 
 Json json_of(const TextBlock& text) { return {{"kind", "text"}, {"caption", text.caption}, {"lines", text.lines}}; }

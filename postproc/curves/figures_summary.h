@@ -28,6 +28,10 @@ struct FiguresSummary {
 };
 void write_figures_summary(const std::filesystem::path& path, const FiguresSummary& summary);
 
+/// The tests of a summary with their figures; numbers that are not finite are NaN. Throws InputError that names the
+/// file for what is no such summary.
+std::vector<NamedFigures> read_test_figures(const std::filesystem::path& path);
+
 /// The names of the tests whose results a summary tells of; none if the file is no such summary.
 std::vector<std::string> tests_of_figures_summary(const std::filesystem::path& path);
 

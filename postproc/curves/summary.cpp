@@ -66,6 +66,7 @@ Json to_json(const RunSummary& s) {
                {"status", s.status},
                {"version", s.version},
                {"instruction_set", instruction_set()},
+               {"processor", processor_name()},
                {"case_hash", s.case_hash},
                {"threads", s.threads},
                {"cells", s.cells},
@@ -136,7 +137,10 @@ double ReadSummary::number(std::string_view name) const {
 std::optional<ReadSummary> read_summary(const std::filesystem::path& path) {
   if (!std::filesystem::exists(path)) return std::nullopt;
   return read_json(path, "summary of a run", [](const Json& json) {
-    ReadSummary summary{.status = json.at("status"), .case_hash = json.at("case_hash"), .numbers = {}};
+    ReadSummary summary{.status = json.at("status"),
+                        .case_hash = json.at("case_hash"),
+                        .processor = json.value("processor", ""),
+                        .numbers = {}};
     for (const auto& [name, value] : json.items())
       if (value.is_number() || value.is_null()) summary.numbers.emplace_back(name, number_of(value));
     return summary;
@@ -173,6 +177,14 @@ RunSummary read_run_summary(const std::filesystem::path& path) {
     }
     return s;
   });
+}
+
+std::string processor_name() {
+  std::ifstream info("/proc/cpuinfo");
+  for (std::string line; std::getline(info, line);)
+    if (line.starts_with("model name"))
+      if (const std::size_t at = line.find(": "); at != std::string::npos) return line.substr(at + 2);
+  return {};
 }
 
 // getrusage would count the program that has started this one as well.

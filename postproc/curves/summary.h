@@ -71,6 +71,7 @@ inline constexpr const char* summary_file = "summary.json";
 struct ReadSummary {
   std::string status;
   std::string case_hash;
+  std::string processor;                                ///< that computed; empty: not told
   std::vector<std::pair<std::string, double>> numbers;  ///< in their order, by name; NaN where it has null
   double number(std::string_view name) const;           ///< NaN if it has none of this name
 };
@@ -82,6 +83,8 @@ std::optional<ReadSummary> read_summary(const std::filesystem::path& path);
 /// names the file for what is no summary.
 RunSummary read_run_summary(const std::filesystem::path& path);
 
+/// Model of this machine's processor, "AMD EPYC"; empty where the system does not tell.
+std::string processor_name();
 /// The most memory that this process has had so far [byte].
 double peak_memory();
 /// Processor time of all threads of this process so far [s].

@@ -135,8 +135,9 @@ RunnableCase read_program(const CaseFile& file) {
       .run = [program](Session& session) { run_case(*program, session); },
       .page =
           [program](const Session& session) {
-            return CasePage{.report = endochronic_page(program->point, program->name, program->hash, session.results),
-                            .extras = {.hash = program->hash}};
+            return CasePage{
+                .report = endochronic_page(program->point, program->name, program->hash, session.results),
+                .extras = {.hash = program->hash, .headline = endochronic_headline(program->hash, session.results)}};
           },
       .data_files = of_run};
   runnable.fit = [program](Session& session) { fit_case(*program, session); };

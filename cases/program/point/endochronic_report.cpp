@@ -221,4 +221,10 @@ ReportPage endochronic_page(const EndochronicCase& point, const std::string& nam
   return page;
 }
 
+std::vector<std::string> endochronic_headline(const std::string& hash, const fs::path& results) {
+  const auto summary = find_of_case(results / summary_file, hash, read_run_summary);
+  if (!summary || summary->status != "complete") return {};
+  return history_sentences(summary->other_figures);
+}
+
 }  // namespace pfdm

@@ -6,6 +6,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace pfdm {
 
@@ -13,5 +14,8 @@ namespace pfdm {
 /// belong to another case.
 ReportPage endochronic_page(const EndochronicCase& point, const std::string& name, const std::string& hash,
                             const std::filesystem::path& results);
+
+/// What the run of this case did, in sentences; none without a complete one.
+std::vector<std::string> endochronic_headline(const std::string& hash, const std::filesystem::path& results);
 
 }  // namespace pfdm

@@ -41,14 +41,36 @@ void say_law(const EndochronicLaw& law, Log& log) {
   say_initial_slope(law, log);
 }
 
-void say_history(const std::map<std::string, double>& figures, Log& log) {
+namespace {
+
+/// "stress xx from -212.6 MPa to 178.1 MPa", of each component.
+std::vector<std::string> ranges_of_stress(const std::map<std::string, double>& figures) {
   constexpr std::string_view largest = "largest_stress_";
+  std::vector<std::string> ranges;
   for (const auto& [name, value] : figures) {
     if (!name.starts_with(largest)) continue;
     const std::string component = name.substr(largest.size(), 2);
-    log.say(fmt::format("  stress {} from {} to {}", component,
-                        stress_shown(figures.at(fmt::format("least_stress_{}_Pa", component))), stress_shown(value)));
+    ranges.push_back(fmt::format("stress {} from {} to {}", component,
+                                 stress_shown(figures.at(fmt::format("least_stress_{}_Pa", component))),
+                                 stress_shown(value)));
   }
+  return ranges;
+}
+
+}  // namespace
+
+std::vector<std::string> history_sentences(const std::map<std::string, double>& figures) {
+  std::vector<std::string> parts = ranges_of_stress(figures);
+  parts.push_back(fmt::format("von Mises stress at most {}", stress_shown(figures.at("largest_von_mises_stress_Pa"))));
+  std::string stresses = fmt::format("{}.", fmt::join(parts, ", "));
+  stresses.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(stresses.front())));
+  return {std::move(stresses),
+          fmt::format("Of {} of work {} are dissipated.", energy_density_shown(figures.at("external_work_J_per_m3")),
+                      energy_density_shown(figures.at("dissipation_J_per_m3")))};
+}
+
+void say_history(const std::map<std::string, double>& figures, Log& log) {
+  for (const std::string& range : ranges_of_stress(figures)) log.say("  " + range);
   log.say(fmt::format("  von Mises stress at most {}", stress_shown(figures.at("largest_von_mises_stress_Pa"))));
   const auto balance = figures.find("energy_balance_error");
   log.say(fmt::format("  work {}, dissipated {}{}", energy_density_shown(figures.at("external_work_J_per_m3")),

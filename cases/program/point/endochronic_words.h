@@ -6,6 +6,7 @@
 
 #include <map>
 #include <string>
+#include <vector>
 
 namespace pfdm {
 
@@ -18,5 +19,8 @@ void say_law(const EndochronicLaw& law, Log& log);
 
 /// Stresses, work and dissipation of a computed history, by the names and values of its summary.
 void say_history(const std::map<std::string, double>& figures, Log& log);
+
+/// The same as two sentences of a page.
+std::vector<std::string> history_sentences(const std::map<std::string, double>& figures);
 
 }  // namespace pfdm

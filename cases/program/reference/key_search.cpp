@@ -36,13 +36,22 @@ std::vector<std::string> words_in(std::string_view text) {
 
 bool is_plural(const std::string& many, const std::string& one) { return one.back() != 's' && many == one + "s"; }
 
-bool has(const std::vector<std::string>& words, const std::string& word) {
-  return std::ranges::any_of(
-      words, [&](const std::string& w) { return w == word || is_plural(w, word) || is_plural(word, w); });
+/// Whether a word of a key is one that is asked for.
+using Match = bool (*)(const std::string& of_key, const std::string& asked);
+
+bool is_same(const std::string& of_key, const std::string& asked) {
+  return of_key == asked || is_plural(of_key, asked) || is_plural(asked, of_key);
 }
 
-bool has_all(const std::vector<std::string>& words, const std::vector<std::string>& asked) {
-  return std::ranges::all_of(asked, [&](const std::string& word) { return has(words, word); });
+bool begins_alike(const std::string& of_key, const std::string& asked) {
+  constexpr std::size_t least = 4;
+  return asked.size() >= least && of_key.starts_with(asked);
+}
+
+bool has_all(const std::vector<std::string>& words, const std::vector<std::string>& asked, Match matches) {
+  return std::ranges::all_of(asked, [&](const std::string& word) {
+    return std::ranges::any_of(words, [&](const std::string& w) { return matches(w, word); });
+  });
 }
 
 void add(const PlacedKey& placed, std::vector<FoundKey>& found) {
@@ -56,17 +65,17 @@ void add(const PlacedKey& placed, std::vector<FoundKey>& found) {
 }
 
 /// Those with the words in their name first. Keys whose name is `asked` are left out.
-std::vector<FoundKey> keys_about(const std::string& asked, const std::vector<KindKeys>& kinds) {
+std::vector<FoundKey> keys_about(const std::string& asked, const std::vector<KindKeys>& kinds, Match matches) {
   const std::vector<std::string> words = words_in(asked);
   std::vector<FoundKey> by_name, by_sentence;
   if (words.empty()) return {};
   for_each_key(kinds, [&](const PlacedKey& placed) {
     if (placed.key->name == asked) return;
     const std::vector<std::string> name = words_in(placed.key->name);
-    if (has_all(name, words)) return add(placed, by_name);
+    if (has_all(name, words, matches)) return add(placed, by_name);
     std::vector<std::string> all = words_in(placed.key->sentence);
     all.insert(all.end(), name.begin(), name.end());
-    if (has_all(all, words)) add(placed, by_sentence);
+    if (has_all(all, words, matches)) add(placed, by_sentence);
   });
   by_name.insert(by_name.end(), by_sentence.begin(), by_sentence.end());
   return by_name;
@@ -93,9 +102,10 @@ std::string places_of(const std::vector<FoundKey>& found) {
 }  // namespace
 
 std::optional<std::string> help_on_word(const std::string& asked, const std::vector<KindKeys>& kinds) {
-  const std::vector<FoundKey> about = keys_about(asked, kinds);
+  std::vector<FoundKey> about = keys_about(asked, kinds, is_same);
   if (const auto text = help_on_key(asked, kinds))
     return about.empty() ? *text : fmt::format("{}\nothers that tell of it: {}\n", *text, places_of(about));
+  if (about.empty()) about = keys_about(asked, kinds, begins_alike);
   if (about.empty()) return std::nullopt;
   return fmt::format("no key has the name \"{}\"; these tell of it:\n\n{}", asked, text_of(about));
 }

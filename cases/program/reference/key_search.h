@@ -10,8 +10,8 @@
 namespace pfdm {
 
 /// What the rows say of the keys with this name or path (help_on_key), and which others tell of it. Where no key has it
-/// as its name, those whose name or sentence has all the words of `asked`, small or capital, singular or plural.
-/// Nothing if there are none.
+/// as its name, those whose name or sentence has all the words of `asked`, small or capital, singular or plural, or
+/// else words that begin so (four letters or more). Nothing if there are none.
 std::optional<std::string> help_on_word(const std::string& asked, const std::vector<KindKeys>& kinds);
 
 /// Each once, in the order of letters.

@@ -16,7 +16,6 @@
 #include <chrono>
 #include <cmath>
 #include <cstdlib>
-#include <fstream>
 #include <thread>
 
 namespace pfdm {
@@ -31,15 +30,6 @@ std::string time_of(const fs::path& file) {
   return fmt::format(
       "{:%Y-%m-%d %H:%M} UTC",
       fmt::gmtime(std::chrono::system_clock::to_time_t(std::chrono::time_point_cast<std::chrono::seconds>(when))));
-}
-
-std::string processor() {
-  std::ifstream info("/proc/cpuinfo");
-  constexpr std::string_view key = "model name";
-  for (std::string line; std::getline(info, line);)
-    if (line.starts_with(key))
-      if (const std::size_t at = line.find(": "); at != std::string::npos) return line.substr(at + 2);
-  return "processor not known";
 }
 
 /// The line of a log that tells version, instruction set, threads; empty if there is none.
@@ -65,13 +55,16 @@ Rows origin_of(const fs::path& results, const std::string& hash) {
       add("status", summary->status);
       if (const double wall = summary->number("wall_seconds"); std::isfinite(wall))
         add("time", shown_seconds(wall) + " s");
+      if (!summary->processor.empty()) add("computed on", summary->processor);
       add("hash of the case", summary->case_hash);
     }
     add("ended", time_of(results / summary_file));
   } else if (!hash.empty()) {
     add("hash of the case", hash);
   }
-  add("page made on", fmt::format("{}, {} threads", processor(), std::thread::hardware_concurrency()));
+  const std::string here = processor_name();
+  add("page made on", fmt::format("{}, {} threads", here.empty() ? "a processor not known" : here,
+                                  std::thread::hardware_concurrency()));
   add("results", results.string());
   return rows;
 }
@@ -181,6 +174,7 @@ BrowserPage browser_page(ReportPage report, const fs::path& results, BrowserExtr
   if (const fs::path file = case_of(results); !file.empty()) page.case_text = read_file(file);
   if (!extras.hash.empty() && fs::exists(results / "fit.json"))
     if (const FitReport fit = read_fit_json(results / "fit.json"); fit.case_hash == extras.hash) add_fit(page, fit);
+  for (std::string& sentence : page.headline) sentence = in_print(std::move(sentence));
   if (page.figures.empty()) page.figures = figures_of_tables(page.report);
   if (page.headline.empty() && fs::exists(results / summary_file))
     if (const auto summary = read_summary(results / summary_file))

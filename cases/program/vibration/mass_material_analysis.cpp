@@ -3,7 +3,6 @@
 #include "postproc/files/atomic_file.h"
 #include "postproc/files/folder_lock.h"
 #include "postproc/records/signal_table.h"
-#include "postproc/vibration/analysis_json.h"
 #include "solver/vibration/identification/identification_responses.h"
 #include "solver/vibration/signals/signals_filter.h"
 
@@ -114,16 +113,8 @@ AnalysedRecord summary_of(const VibrationTest& test, const VibrationRecord& r, c
                    .averages = a.spectra.averages,
                    .resolution = r.rate / static_cast<double>(a.segments.length),
                    .misfits = {}};
-  if (a.tracked) {
-    const Eigen::Index at = a.tracked->at_resonance();
-    s.sine_amplitude = a.tracked->median_base();
-    s.resonance = {a.tracked->frequency[at], a.tracked->harmonics(at, 0) / a.tracked->base[at]};
-    return s;
-  }
-  for (Eigen::Index i = 0; i < a.spectra.frequency.size(); ++i)
-    if (const double f = a.spectra.frequency[i], H = std::abs(a.H1[i]);
-        f >= r.band_low && f <= r.band_high && a.coherence[i] > 0.5 && H > s.resonance.response)
-      s.resonance = {f, H};
+  if (a.tracked) s.sine_amplitude = a.tracked->median_base();
+  s.resonance = largest_response(r, a);
   return s;
 }
 
@@ -143,6 +134,19 @@ void say_record(const AnalysedRecord& s, Log& log) {
 std::string now() { return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr))); }
 
 }  // namespace
+
+LargestResponse largest_response(const VibrationRecord& record, const RecordAnalysis& a) {
+  if (a.tracked) {
+    const Eigen::Index at = a.tracked->at_resonance();
+    return {a.tracked->frequency[at], a.tracked->harmonics(at, 0) / a.tracked->base[at]};
+  }
+  LargestResponse largest;
+  for (Eigen::Index i = 0; i < a.spectra.frequency.size(); ++i)
+    if (const double f = a.spectra.frequency[i], H = std::abs(a.H1[i]);
+        f >= record.band_low && f <= record.band_high && a.coherence[i] > 0.5 && H > largest.response)
+      largest = {f, H};
+  return largest;
+}
 
 void remove_analysis(const fs::path& results) {
   const fs::path folder = results / analysis_folder;

@@ -2,6 +2,7 @@
 // pfdm analyse of a case of kind "mass_material": its records without a fit.
 
 #include "cases/program/vibration/mass_material_jobs.h"
+#include "postproc/vibration/analysis_json.h"
 #include "solver/vibration/diagnosis/record_analysis.h"
 
 #include <filesystem>
@@ -19,6 +20,10 @@ struct NamedModel {
   MassMaterial parameters;
 };
 std::vector<NamedModel> models_at_hand(const MassMaterialCase& c, const std::filesystem::path& results);
+
+/// Of the relative acceleration over the base's: of a sine at its frequency, else of H1 where the coherence is above
+/// 0.5.
+LargestResponse largest_response(const VibrationRecord& record, const RecordAnalysis& analysis);
 
 /// Spectra, responses, spectrogram, harmonics, envelopes of every record as CSV, and analysis.json.
 void analyse_mass_material(const MassMaterialProgram& program, Session& session);

@@ -16,6 +16,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -218,8 +219,28 @@ void run_case(const MassMaterialProgram& program, Session& session) {
             session);
 }
 
+/// What the run of this case did, in sentences; none without one.
+std::vector<std::string> headline_of(const MassMaterialProgram& program, const fs::path& results) {
+  const fs::path file = results / summary_file;
+  const auto summary = find_of_case(file, program.hash, [](const fs::path& path) { return *read_summary(path); });
+  if (!summary) return {};
+  std::vector<std::string> sentences{fmt::format("Mass and sample resonate at {}, where they are linear.",
+                                                 shown(summary->number("linear_resonance_Hz"), "Hz"))};
+  constexpr std::size_t most = 4;
+  const std::vector<NamedFigures> tests = read_test_figures(file);
+  for (std::size_t i = 0; i < std::min(tests.size(), most); ++i) {
+    const auto figure = [&](const char* name) { return tests[i].figures.at(name); };
+    sentences.push_back(fmt::format("{}: the base shakes with up to {:.4g} g0, the mass moves up to {} against it.",
+                                    tests[i].name, figure("peak_base_acceleration_m_per_s2") / standard_gravity,
+                                    shown(figure("peak_relative_displacement_m"), "m")));
+  }
+  if (tests.size() > most) sentences.push_back(fmt::format("{} more tests.", tests.size() - most));
+  return sentences;
+}
+
 CasePage page_of(const MassMaterialProgram& program, const Session& session) {
-  return {.report = mass_material_page(program, session), .extras = {.hash = program.hash}};
+  return {.report = mass_material_page(program, session),
+          .extras = {.hash = program.hash, .headline = headline_of(program, session.results)}};
 }
 
 RunnableCase read_program(const CaseFile& file) {

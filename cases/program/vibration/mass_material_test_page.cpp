@@ -172,7 +172,10 @@ void write_test_pages(const MassMaterialProgram& program, Session& session) {
     const RecordAnalysis analysis = analysed(record, c.analysis);
     const TestStory story{program, test, record, analysis, models, *stamp};
     const fs::path folder = session.results / "report" / test.name;
-    write_pages(folder, test_page(story, session.version), session, {});
+    const LargestResponse largest = largest_response(record, analysis);
+    write_pages(folder, test_page(story, session.version), session,
+                {.headline = {fmt::format("Largest response {:.4g} times the base at {:.4g} Hz.", largest.response,
+                                          largest.frequency)}});
   }
 }
 

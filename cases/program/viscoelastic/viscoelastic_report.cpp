@@ -209,4 +209,22 @@ ReportPage viscoelastic_page(const ViscoelasticCase& c, const std::string& name,
   return page;
 }
 
+std::vector<std::string> viscoelastic_headline(const std::string& hash, const fs::path& results) {
+  const auto run = find_of_case(results / summary_file, hash, read_run_summary);
+  if (!run) return {};
+  const auto shown_of = [&](const char* name, const char* unit) { return shown(run->other_figure(name), unit); };
+  std::vector<std::string> sentences{fmt::format("Young's modulus {} relaxed, {} at once.",
+                                                 shown_of("relaxed_young_modulus_Pa", "Pa"),
+                                                 shown_of("instantaneous_young_modulus_Pa", "Pa"))};
+  if (run->other_figures.contains("largest_stress_Pa"))
+    sentences.push_back(fmt::format("Largest stress {}; at the end {} at a strain of {:.4g} %.",
+                                    shown_of("largest_stress_Pa", "Pa"), shown_of("final_stress_Pa", "Pa"),
+                                    100.0 * run->other_figure("final_strain")));
+  if (run->other_figures.contains("largest_shear_loss_factor"))
+    sentences.push_back(fmt::format("Largest loss factor in shear {:.4g} at {}.",
+                                    run->other_figure("largest_shear_loss_factor"),
+                                    shown_of("largest_shear_loss_factor_at_Hz", "Hz")));
+  return sentences;
+}
+
 }  // namespace pfdm

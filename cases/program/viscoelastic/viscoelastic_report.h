@@ -6,6 +6,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace pfdm {
 
@@ -13,5 +14,8 @@ namespace pfdm {
 /// belong to another case.
 ReportPage viscoelastic_page(const ViscoelasticCase& c, const std::string& name, const std::string& hash,
                              const std::filesystem::path& results);
+
+/// What the run of this case found, in sentences; none without one.
+std::vector<std::string> viscoelastic_headline(const std::string& hash, const std::filesystem::path& results);
 
 }  // namespace pfdm

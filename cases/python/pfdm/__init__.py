@@ -25,6 +25,7 @@ from .interface_law import InterfaceLaw, softening, softening_laws
 from .mass_material import MassMaterial
 from .mesh import Mesh
 from .native import set_threads
+from .new_case import new_case
 from .own_laws import (HyperelasticResponse, InterfaceResponse, MaterialResponse, OwnHyperelastic, OwnInterfaceLaw,
                        OwnMaterial)
 from .results import Fit, Frame, Results, open  # noqa: A004
@@ -34,4 +35,4 @@ from .vtu import Grid
 __all__ = ["Case", "Check", "ComputationError", "Endochronic", "Error", "Fit", "FractureRun", "Frame", "Grid",
            "HyperelasticResponse", "InputError", "InterfaceLaw", "InterfaceResponse", "MassMaterial", "MaterialResponse",
            "Mesh", "MissingResult", "OwnHyperelastic", "OwnInterfaceLaw", "OwnMaterial", "Results", "State", "homogenize",
-           "open", "set_threads", "softening", "softening_laws", "specimen", "sweep"]
+           "new_case", "open", "set_threads", "softening", "softening_laws", "specimen", "sweep"]

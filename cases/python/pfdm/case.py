@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 import tomllib
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
@@ -11,7 +12,7 @@ from typing import Any
 from .errors import InputError
 from .program import Step, call
 from .results import Fit, Results
-from .toml_text import leaves_of, toml_piece, value_at
+from .toml_text import leaves_of, set_at, toml_piece, value_at
 
 
 @dataclass(frozen=True)
@@ -81,6 +82,17 @@ class Case:
     @property
     def title(self) -> str:
         return str(self._table.get("title", ""))
+
+    @property
+    def table(self) -> dict[str, Any]:
+        """A copy of all that the case says, as dicts and lists, with the values set here; new_case() makes a case of it.
+
+        Raises KeyError for a value whose place the file does not have.
+        """
+        table = copy.deepcopy(self._table)
+        for key, value in self.values.items():
+            set_at(table, key, copy.deepcopy(value))
+        return table
 
     def __getitem__(self, key: str) -> Any:
         """The value of a key: as it was set here, else as it is in the file. Raises KeyError if neither has it."""

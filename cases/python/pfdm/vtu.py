@@ -85,11 +85,20 @@ class Grid:
                 data[name].append(values[cells])
         return meshio.Mesh(self.points, blocks, point_data=self.point_data, cell_data=data)
 
+    def to_vtk(self) -> Any:
+        """The grid as vtkUnstructuredGrid with its data. Points and data are those of this grid, not copies.
+
+        Raises ImportError without VTK (Debian: python3-vtk9).
+        """
+        from .vtk_grid import vtk_grid
+
+        return vtk_grid(self)
+
     def to_pyvista(self) -> Any:
-        """The grid as pyvista.UnstructuredGrid, read by VTK. Raises ImportError without pyvista."""
+        """The grid as pyvista.UnstructuredGrid with its data. Raises ImportError without pyvista."""
         import pyvista
 
-        return pyvista.read(self.path)
+        return pyvista.wrap(self.to_vtk())
 
 
 def _bytes_of(text: str, header: str) -> bytes:

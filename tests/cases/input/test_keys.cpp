@@ -183,6 +183,21 @@ TEST(KeyHelp, NamesWhatWasMeant) {
   EXPECT_THAT(run({"help", "toughness"}).out, HasSubstr("Fracture toughness"));
 }
 
+TEST(KeyHelp, SaysWhereElseAWordMayBeFound) {
+  const Outcome outcome = run({"help", "slender"});
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_THAT(outcome.err, HasSubstr("all keys: cases/reference; all else: the search of pfdm docs"));
+  EXPECT_THAT(outcome.err, testing::Not(HasSubstr("available:")));
+  EXPECT_LT(outcome.err.size(), 300u);
+  EXPECT_THAT(run({"help", "rnu"}).err, HasSubstr("did you mean \"run\"?"));
+}
+
+TEST(KeyHelp, FindsKeysByHowAWordBegins) {
+  EXPECT_THAT(run({"help", "debond"}).out, HasSubstr("these tell of it:"));
+  EXPECT_THAT(run({"help", "viscoel"}).out, HasSubstr("viscoelastic"));
+  EXPECT_EQ(run({"help", "vis"}).status, 2);
+}
+
 TEST(KeyHelp, FindsKeysByWhatTheyTellOf) {
   const Outcome Gc = run({"help", "gc"});
   EXPECT_EQ(Gc.status, 0) << Gc.err;

@@ -96,8 +96,12 @@ TEST(Overrides, SayWhatIsWrong) {
   expect_refused_word("loading.end", "--set loading.end: expected KEY=VALUE, as in");
   expect_refused_word("=3", "expected KEY=VALUE");
   expect_refused_word("mesh.x[3].cells=3", "--set mesh.x[3].cells: ");
-  expect_refused_word("mesh.x=3", "\"mesh.x\" is not a single value");
-  expect_refused_word("boundary=[]", "\"boundary\" is not a single value");
+  expect_refused_word("mesh.x=3", "\"mesh.x\" is a list: expected one, as [...]");
+  expect_refused_word(
+      "boundary=[]",
+      "\"boundary\" is a list of 4 tables; their keys can be set, as boundary[0].patch; tables are added");
+  expect_refused_word("boundary[0]=1", "\"boundary[0]\" is a table; its keys can be set, as boundary[0].patch");
+  expect_refused_word("output.frames_at=3", "\"output.frames_at\" is a list: expected one");
   expect_refused_word("boundary.patch=xmin", "boundary is a list: name one of its elements, as boundary[0].patch");
   expect_refused_word("fracture.lenght=2 mm", "did you mean \"length\"?");
   expect_refused_word("fracture.length=2 MPa", "case.toml with --set");

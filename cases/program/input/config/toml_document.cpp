@@ -142,6 +142,19 @@ bool is_in_brackets(const std::string& text, std::size_t at) {
   return at < text.size() && text[at] == '[' && !is_header;
 }
 
+/// Why a table, or a list, does not get a value that is no list, and what can be set of it.
+std::string words_for_what_has_parts(const TomlValue& old, std::string_view path, bool in_brackets) {
+  if (const auto* table = std::get_if<TomlTable>(&old.value))
+    return fmt::format("\"{}\" is a table; its keys can be set{}", path,
+                       table->empty() ? "" : fmt::format(", as {}.{}", path, table->front().key));
+  if (in_brackets) return fmt::format("\"{}\" is a list: expected one, as [...]", path);
+  const auto& list = std::get<TomlArray>(old.value);
+  const auto& first = std::get<TomlTable>(list.front().value);  // [[path]]
+  return fmt::format("\"{0}\" is a list of {1} table{2}; {3}tables are added and taken away in the file", path,
+                     list.size(), list.size() == 1 ? "" : "s",
+                     first.empty() ? "" : fmt::format("their keys can be set, as {}[0].{}; ", path, first.front().key));
+}
+
 }  // namespace
 
 const TomlValue& value_at(const TomlValue& root, std::string_view path) {
@@ -159,10 +172,10 @@ std::string with_value(const std::string& text, std::string_view path, const std
   const TomlValue root = parse_toml(text, "case.toml");
   const TomlValue& old = value_at(root, path);
   const std::size_t at = offset_of(text, old.line, old.column);
-  if (std::holds_alternative<TomlArray>(old.value) && value.starts_with('[') && is_in_brackets(text, at))
-    return std::string(text).replace(at, length_of_list(text, at), value);
+  const bool in_brackets = std::holds_alternative<TomlArray>(old.value) && is_in_brackets(text, at);
+  if (in_brackets && value.starts_with('[')) return std::string(text).replace(at, length_of_list(text, at), value);
   if (std::holds_alternative<TomlArray>(old.value) || std::holds_alternative<TomlTable>(old.value))
-    throw InputError(fmt::format("\"{}\" is not a single value", path));
+    throw InputError(words_for_what_has_parts(old, path, in_brackets));
   return with_value(text, old, value);
 }
 
