@@ -233,8 +233,9 @@ void help_on(const std::string& key, std::ostream& out) {
   }
   const std::vector<std::string> near = keys_like(key, kinds);
   const bool knows_all = kinds.size() == std::size(all_kind_names);
-  throw InputError(fmt::format("{}; nor is it a key of case.toml{}, or a word that one tells of{}",
-                               unknown_command(key),
+  const std::string command = unknown_command(key);
+  throw InputError(fmt::format("{} is it a key of case.toml{}, or a word that one tells of{}",
+                               command + (command.ends_with('?') ? " Nor" : "; nor"),
                                near.empty() ? "" : fmt::format(" (keys like it: {})", fmt::join(near, ", ")),
                                knows_all ? "; all keys: cases/reference; all else: the search of pfdm docs"
                                          : "; this program knows those of fracture cases alone"));

@@ -178,12 +178,12 @@ hid_t ordered_group(hid_t root, const std::string& name) {
 /// The fields of the cells, of the points, or of the whole, with their two groups in the file.
 class SteppedFields {
  public:
-  SteppedFields(hid_t root, hid_t steps, const std::string& name, vtkFieldData& first)
+  /// Without the field `but`.
+  SteppedFields(hid_t root, hid_t steps, const std::string& name, vtkFieldData& first, std::string_view but = {})
       : group_(ordered_group(root, name), H5Gclose),
         steps_(H5Gcreate2(steps, (name + "Offsets").c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose) {
-    constexpr std::string_view time = "TimeValue";  // Steps/Values has it
     for (int i = 0; i < first.GetNumberOfArrays(); ++i)
-      if (vtkDataArray* array = first.GetArray(i); array != nullptr && array->GetName() != time)
+      if (vtkDataArray* array = first.GetArray(i); array != nullptr && array->GetName() != but)
         fields_.emplace_back(group_, *array);
   }
 
@@ -239,7 +239,8 @@ void write_frames(const std::vector<Frame>& frames, const fs::path& folder, cons
       geometries.emplace(root, geometry);
       of_cells.emplace(root, steps, "CellData", *grid.GetCellData());
       of_points.emplace(root, steps, "PointData", *grid.GetPointData());
-      of_all.emplace(root, steps, "FieldData", *grid.GetFieldData());
+      // Steps/Values has the time; of a single frame VTK and ParaView do not read it there.
+      of_all.emplace(root, steps, "FieldData", *grid.GetFieldData(), frames.size() > 1 ? "TimeValue" : "");
     }
     geometries->add(std::move(geometry));
     of_cells->add(*grid.GetCellData(), path);

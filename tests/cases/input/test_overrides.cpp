@@ -101,6 +101,7 @@ TEST(Overrides, SayWhatIsWrong) {
       "boundary=[]",
       "\"boundary\" is a list of 4 tables; their keys can be set, as boundary[0].patch; tables are added");
   expect_refused_word("boundary[0]=1", "\"boundary[0]\" is a table; its keys can be set, as boundary[0].patch");
+  expect_refused_word("materials=1", "\"materials\" is a table; its keys can be set, as materials.concrete.regions");
   expect_refused_word("output.frames_at=3", "\"output.frames_at\" is a list: expected one");
   expect_refused_word("boundary.patch=xmin", "boundary is a list: name one of its elements, as boundary[0].patch");
   expect_refused_word("fracture.lenght=2 mm", "did you mean \"length\"?");

@@ -1,5 +1,6 @@
 // pfdm analyse: records without a fit.
 
+#include "tests/cases/page_data.h"
 #include "tests/cases/temporary_case.h"
 
 #include <fmt/format.h>
@@ -146,6 +147,14 @@ TEST_F(Analysis, MakesAPageOfEachTest) {
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   for (const char* file : {"report.pdf", "sweep/report.pdf", "sweep/report.png", "random/report.pdf"})
     EXPECT_TRUE(fs::exists(directory.results() / "report" / file)) << file;
+  const json analysed = json::parse(content_of(directory.results() / "analysis/analysis.json"));
+  for (const json& record : analysed["records"]) {
+    const fs::path file = directory.results() / "report" / record["name"].get<std::string>() / "index.html";
+    const json& largest = record["largest_response"];
+    EXPECT_EQ(data_of_page(content_of(file))["headline"][0],
+              fmt::format("Largest response {:.4g} times the base at {:.4g} Hz.",
+                          largest["relative_over_base"].get<double>(), largest["frequency_Hz"].get<double>()));
+  }
   // A new run takes what belongs to the old one away.
   ASSERT_EQ(run({"run", path}).status, 0);
   EXPECT_FALSE(fs::exists(folder));

@@ -7,6 +7,7 @@
 #include "tests/cases/temporary_case.h"
 
 #include <fmt/format.h>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
@@ -74,7 +75,11 @@ TEST(MassMaterialProgram, FitsOgdensModelToTheStiffness) {
   EXPECT_GT(ogden["largest_displacement_m"].get<double>(), 1e-3);
   EXPECT_LT(ogden["largest_displacement_m"].get<double>(), 0.02);
   ASSERT_EQ(run({"report", directory.path().string()}).status, 0);
-  const json figures = data_of_page(content_of(directory.results() / "report" / "index.html"))["figures"];
+  const json page = data_of_page(content_of(directory.results() / "report" / "index.html"));
+  EXPECT_THAT(page["headline"].front().get<std::string>(), testing::StartsWith("Mass and sample resonate at 3"));
+  EXPECT_THAT(page["headline"][1].get<std::string>(), testing::EndsWith("mm against it."));
+  EXPECT_THAT(page["headline"].back().get<std::string>(), testing::StartsWith("The fit is "));
+  const json& figures = page["figures"];
   const std::pair<const char*, const char*> shown[] = {{"k1", "kN/m"}, {"k2", "MN/m²"}, {"k3", "MN/m³"}};
   for (std::size_t i = 0; i < 3; ++i) {
     EXPECT_EQ(figures[i]["label"], shown[i].first);

@@ -3,8 +3,10 @@
 #include "cases/program/input/case_files/case_file.h"
 #include "cases/program/viscoelastic/viscoelastic_case.h"
 #include "cases/program/viscoelastic/viscoelastic_report.h"
+#include "tests/cases/page_data.h"
 #include "tests/cases/viscoelastic_fit.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
@@ -44,6 +46,9 @@ TEST(ViscoelasticCase, RunsARampThatIsHeldAndComplexModuli) {
   EXPECT_EQ(summary["status"], "complete");
   EXPECT_NEAR(summary["instantaneous_shear_modulus_Pa"].get<double>(), law.relaxed.mu + 2.3e6, 1e-3);
   EXPECT_EQ(run({"report", directory.path().string()}).status, 0);
+  const auto page = data_of_page(content_of(directory.results() / "report" / "index.html"));
+  EXPECT_THAT(page["headline"][0].get<std::string>(), testing::MatchesRegex("Young's modulus .* relaxed, .* at once."));
+  EXPECT_THAT(page["headline"].back().get<std::string>(), testing::StartsWith("Largest loss factor in shear "));
 }
 
 TEST(ViscoelasticCase, CreepsUnderAStressByFormula) {

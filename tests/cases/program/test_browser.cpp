@@ -106,6 +106,13 @@ TEST(Browser, PageOfAMaterialPointHasItsCurves) {
   const auto data = data_of_page(page_of(directory));
   EXPECT_TRUE(data["body"].is_null());
   EXPECT_GE(data["blocks"].size(), 2u);
+  EXPECT_THAT(data["headline"][0].get<std::string>(), testing::MatchesRegex("Stress xx from .* to .*, von Mises .*"));
+  EXPECT_THAT(data["headline"][1].get<std::string>(), HasSubstr("J/m³ are dissipated."));
+  const auto summary = read_summary(directory.results() / summary_file);
+  const std::vector<std::string> computed{"computed on", processor_name()};
+  EXPECT_EQ(summary->processor, processor_name());
+  if (!processor_name().empty())
+    EXPECT_THAT(data["origin"].get<std::vector<std::vector<std::string>>>(), testing::Contains(computed));
   EXPECT_THAT(data["title"].get<std::string>(), HasSubstr(":"));
 }
 

@@ -110,6 +110,15 @@ TEST_F(OneFile, has_the_fields_of_each_frame) {
     }
 }
 
+// VTK 9.3 and ParaView 5.13 do not look into Steps where there is one alone.
+TEST_F(OneFile, has_the_time_of_a_single_frame_as_a_field) {
+  add(opened(), 0.75);
+  write_vtkhdf(folder_ / "fields.pvd", file_);
+  EXPECT_THAT(real("Steps/Values"), ElementsAre(0.75));
+  EXPECT_THAT(real("FieldData/TimeValue"), ElementsAre(0.75));
+  EXPECT_THAT(whole("Steps/FieldDataOffsets/TimeValue"), ElementsAre(0));
+}
+
 TEST_F(OneFile, has_once_what_stays) {
   write_three();
   EXPECT_THAT(whole("Steps/PartOffsets"), ElementsAre(0, 0, 1));  // points are split in the last frame

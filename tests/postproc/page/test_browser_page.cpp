@@ -101,6 +101,13 @@ TEST(BrowserPage, NamesNoFileButItself) {
   EXPECT_LT(html.size(), 1500000u);
 }
 
+TEST(BrowserPage, HasValuesOfTablesInSignsOfPrint) {
+  BrowserPage page{};
+  page.report.rows.push_back({.blocks = {Table{.caption = "t", .rows = {{"k^2 of um", "-3 um", "120.2 J/m^2"}}}}});
+  EXPECT_EQ(data_of(page_as_html(page))["blocks"][0]["rows"][0],
+            (std::vector<std::string>{"k^2 of um", "-3 µm", "120.2 J/m²"}));
+}
+
 TEST(BrowserPage, HasTheNumbersOfItsCharts) {
   BrowserPage page{};
   const double nan = std::numeric_limits<double>::quiet_NaN();

@@ -144,9 +144,16 @@ bool is_in_brackets(const std::string& text, std::size_t at) {
 
 /// Why a table, or a list, does not get a value that is no list, and what can be set of it.
 std::string words_for_what_has_parts(const TomlValue& old, std::string_view path, bool in_brackets) {
-  if (const auto* table = std::get_if<TomlTable>(&old.value))
-    return fmt::format("\"{}\" is a table; its keys can be set{}", path,
-                       table->empty() ? "" : fmt::format(", as {}.{}", path, table->front().key));
+  if (std::holds_alternative<TomlTable>(old.value)) {
+    std::string below(path);  // the first key of it that is no table
+    const TomlValue* at = &old;
+    for (const auto* table = &std::get<TomlTable>(old.value); table != nullptr && !table->empty();
+         table = std::get_if<TomlTable>(&at->value)) {
+      below += "." + table->front().key;
+      at = &table->front().value;
+    }
+    return fmt::format("\"{}\" is a table; its keys can be set{}", path, at == &old ? "" : ", as " + below);
+  }
   if (in_brackets) return fmt::format("\"{}\" is a list: expected one, as [...]", path);
   const auto& list = std::get<TomlArray>(old.value);
   const auto& first = std::get<TomlTable>(list.front().value);  // [[path]]
