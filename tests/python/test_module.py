@@ -98,6 +98,8 @@ class Runs(Folder):
         seen = []
         run = bar().run(self.folder / "r", on_step=seen.append)
         self.assertEqual(pandas.DataFrame(seen)["displacement_m"].tolist(), run.curve["displacement_m"].tolist())
+        self.assertEqual(str(seen[1]), "step 1: 1 um, 299.8 mN")
+        self.assertEqual(str(type(seen[1])({**seen[1], "displacement_m": 0.0, "force_y_N": -4.2e4})), "step 1: 0 m, -42 kN")
 
     def test_of_kinds_without_load_steps_cannot_be_followed(self):
         with self.assertRaisesRegex(pfdm.InputError, "have steps to follow"):

@@ -112,7 +112,7 @@ class FractureRun:
     def row(self) -> Step:
         """The present state as a row of force_displacement.csv: "step", "load", "displacement_m", "force_x_N" ...; of a
         box as one of stress_strain.csv: "step", "load", "strain_xx", "stress_xx_Pa" ..."""
-        return dict(zip(self._names, map(float, self._run.row()[1].split(",")), strict=True))
+        return Step(zip(self._names, map(float, self._run.row()[1].split(",")), strict=True))
 
     @property
     def load(self) -> float:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import os
 import shutil
 import signal
@@ -13,7 +14,25 @@ from typing import IO
 
 from .errors import ComputationError, Error, InputError
 
-Step = dict[str, float]
+
+def _in_unit_that_fits(value: float, unit: str) -> str:
+    """"157.1 um" of 1.571e-4 m: a prefix that leaves one to three digits before the point."""
+    if value == 0.0 or not math.isfinite(value):
+        return f"{value:g} {unit}"
+    power = min(3, max(-4, math.floor(math.log10(abs(value) * (1.0 + 5e-5)) / 3.0)))
+    return f"{value / 1000.0**power:.4g} {'pnum kMG'[power + 4].strip()}{unit}"
+
+
+class Step(dict[str, float]):
+    """A load step as a dict of the columns of force_displacement.csv, SI units in their names; print() shows it in brief,
+    "step 8: 157.1 um, 9.222 N", by the largest component of the force."""
+
+    def __str__(self) -> str:
+        forces = [self[name] for name in ("force_x_N", "force_y_N", "force_z_N") if name in self]
+        if "displacement_m" not in self or not forces:
+            return f"step {self.get('step', math.nan):.0f}: load {self.get('load', math.nan):.4g}"
+        return (f"step {self['step']:.0f}: {_in_unit_that_fits(self['displacement_m'], 'm')}, "
+                f"{_in_unit_that_fits(max(forces, key=abs), 'N')}")
 
 _running: dict[int, subprocess.Popen[bytes]] = {}  # by the thread that waits
 
@@ -37,7 +56,7 @@ def _follow(rows: IO[str], on_step: Callable[[Step], object]) -> bool:
     """Calls `on_step` with each row of the curve; True if it has asked for the end by returning False."""
     names = rows.readline().strip().split(",")
     for line in rows:
-        step = {name: float(value) for name, value in zip(names, line.split(","), strict=True)}
+        step = Step({name: float(value) for name, value in zip(names, line.split(","), strict=True)})
         if on_step(step) is False:
             return True
     return False

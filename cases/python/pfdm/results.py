@@ -54,8 +54,10 @@ def _with_units(table: pandas.DataFrame) -> pandas.DataFrame:
 
 
 class Frame:
-    """The fields of one step. Arrays are attributes, frame.damage or frame.stress; of a name that cells and points share
-    (displacement) the cells', the other is in frame.grid.point_data.
+    """The fields of one step, views of what was read. Arrays are attributes, of a fracture run frame.damage (n_cells,),
+    frame.displacement (n_cells, 3) [m], frame.stress [Pa] and frame.strain (n_cells, 6) with the components XX, YY, ZZ,
+    XY, YZ, XZ; names() has all, frame.grid.units their units. Of a name that cells and points share (displacement) it is
+    the cells'; the other is in frame.grid.point_data, (n_points, 3).
 
     Attributes:
         step: number of the load step.
