@@ -28,4 +28,11 @@ struct PronyDecay {
 };
 PronyDecay decay_over(double x);
 
+/// Mean over such a step of q:q, q what the spring has, by its start q_n and its end: start q_n:q_n + cross q_n:q + end
+/// q:q.
+struct PronySquare {
+  double start = 1.0 / 3.0, cross = 1.0 / 3.0, end = 1.0 / 3.0;
+};
+PronySquare square_over(double x);
+
 }  // namespace pfdm

@@ -2,6 +2,7 @@
 
 #include "physics/prony_decay.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace pfdm {
@@ -13,6 +14,9 @@ Tensor viscous_strain(std::span<const double> history, std::size_t branch) {
 
 // (det A)^power - 1, exact to rounding near A = 1, by det A - 1.
 double power_less_one(double change, double power) { return std::expm1(power * std::log1p(change)); }
+
+// tr A - 3 by B = A - 1 where det A = 1: nothing cancels at small B.
+double trace_beyond_three(const Tensor& B) { return 0.5 * ((B * B).trace() - B.trace() * B.trace()) - B.determinant(); }
 
 // J^(-2/3) by J - 1.
 OfVolume isochoric_factor(double change) {
@@ -108,14 +112,11 @@ ViscousBranches::Flow ViscousBranches::flow(std::size_t i, const Shape& now, con
   return flow;
 }
 
-// Energy and stress alone, of a regular shape: P = mu_i (F (C_v^-1 - 1) + J^(-1/3) cof F (C' - 1)), and as det C' = det
-// C_v = 1, with B = (C' - C_v) C_v^-1, C':C_v^-1 - 3 = tr B = (tr B^2 - (tr B)^2)/2 - det B: nothing cancels at small
-// strain.
+// Energy and stress alone, of a regular shape: P = mu_i (F (C_v^-1 - 1) + J^(-1/3) cof F (C' - 1)).
 PotentialAt ViscousBranches::force(std::size_t i, const Tensor& F, const Shape& now, const Flow& flow) const {
   const double mu = branches_[i].modulus;
   const Tensor B = (now.strain - flow.strain) * flow.inverse;
-  const double trace = 0.5 * ((B * B).trace() - B.trace() * B.trace()) - B.determinant();
-  return {.energy = 0.5 * mu * trace / now.factor.value,
+  return {.energy = 0.5 * mu * trace_beyond_three(B) / now.factor.value,
           .stress = mu * (F * (-flow.inverse * flow.strain) +
                           std::cbrt(1.0 / (1.0 + now.change)) * cofactor(F) * now.strain)};
 }
@@ -161,22 +162,29 @@ PotentialAt ViscousBranches::over(const Tensor& H, const PointBefore& before) co
   return sum;
 }
 
-// The heat is the work of S on E, by the trapezoidal rule, less what is stored: no rotation makes any.
+// The spring loses its energy at twice the rate at which B does: so one that is held makes all that it stored, heat.
+double ViscousBranches::dissipated(std::size_t i, const Shape& now, const Shape& before, const PointBefore& at,
+                                   const Flow& flow) const {
+  const Tensor viscous = viscous_strain(at.history, i);
+  const Tensor B_n = (before.strain - viscous) * (Tensor::Identity() + viscous).inverse(),
+               B = (now.strain - flow.strain) * flow.inverse;
+  const auto square = [](const Tensor& a, const Tensor& b) { return (deviator(a) * deviator(b)).trace(); };
+  const double start = square(B_n, B_n), end = square(B, B), most = std::sqrt(std::max(start * end, 0.0));
+  const double stored = trace_beyond_three(B_n), rate = stored > 0.0 ? 0.5 * start / stored : 1.0;
+  const double x = at.duration / branches_[i].time, ratio = std::sqrt(before.factor.value / now.factor.value);
+  const PronySquare by = square_over(rate * x);
+  return 0.5 * branches_[i].modulus * x / before.factor.value *
+         (by.start * start + by.cross * ratio * std::clamp(square(B_n, B), -most, most) + by.end * ratio * ratio * end);
+}
+
 void ViscousBranches::advance(const Tensor& H, const PointBefore& before, std::span<double> history) const {
   if (!any()) return;
   const Shape now(H), earlier(before.from);
-  const Tensor F = Tensor::Identity() + H, F_n = Tensor::Identity() + before.from;
-  const PointBefore held{before.from, 0.0, before.history};
-  const Tensor dE = green_strain(H) - green_strain(before.from);
   double heat = before.history[heat_];
   const bool is_regular = now.is_regular() && earlier.is_regular();
   for (std::size_t i = 0; i < branches_.size(); ++i) {
     const Flow flow_i = flow(i, now, earlier, before);
-    if (is_regular) {
-      const PotentialAt at = force(i, F, now, flow_i), at_n = force(i, F_n, earlier, flow(i, earlier, earlier, held));
-      const Tensor S = F.inverse() * at.stress + F_n.inverse() * at_n.stress;
-      heat += 0.5 * contract(S, dE) - (at.energy - at_n.energy);
-    }
+    if (is_regular) heat += dissipated(i, now, earlier, before, flow_i);
     if (bulk_ratio_ > 0.0) history[springs_ + i] = spring(i, now, earlier, before);
     Eigen::Map<Mandel>(history.data() + 6 * i) = to_mandel(flow_i.strain);
   }

@@ -12,7 +12,9 @@
 //   M = e^-x C_v + ((phi - e^-x) C'_n + (1 - phi) C')/r,   C_v = M/(det M)^(1/3),   phi = (1 - e^-x)/x:
 //
 // exact at small strain, second order beyond. The stress is that of the state at the end of the step, and the tangent
-// belongs to it; it is not symmetric.
+// belongs to it; it is not symmetric. The heat, with B = J^(1/3) dev(C' C_v^-1), is the integral of mu_i/(2 tau_i)
+// B:B^T over the step, B taken as that of a spring of small strain (prony_decay.h): never negative, none of what is at
+// once.
 //
 // Cells with a pressure: the moderate volumetric stress K_s u of the cell relaxes as its shear modulus does
 // (relaxing_gaps.h). A branch then has a spring in bulk, of the modulus bulk_ratio mu_i, that bears v_i, v_i' +
@@ -60,6 +62,8 @@ class ViscousBranches {
   Flow flow(std::size_t branch, const Shape& now, const Shape& before, const PointBefore& at) const;
   PotentialAt force(std::size_t branch, const Tensor& F, const Shape& now, const Flow& flow) const;
   PotentialAt shear(std::size_t branch, const Tensor& F, const Shape& now, const Flow& flow) const;
+  double dissipated(std::size_t branch, const Shape& now, const Shape& before, const PointBefore& at,
+                    const Flow& flow) const;
   double spring(std::size_t branch, const Shape& now, const Shape& before, const PointBefore& at) const;
 
   std::vector<PronyBranch> branches_;

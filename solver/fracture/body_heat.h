@@ -2,7 +2,8 @@
 // Heat where a body dissipates: in materials (viscous, plastic), by the viscosity of the damage equation, and on
 // cohesive interfaces (friction, decohesion). The dissipation of a load step goes into cells and interface faces and is
 // conducted in the time of the step (solver/heat). Surface energy of the phase field is no heat, nor is what a strength
-// model's driving force does. Cracks conduct as sound material does.
+// model's driving force does. Cracks conduct as sound material does. At finite strain all of it is per reference volume
+// and area, and the conduction that of the undeformed body.
 //
 // One-way, rises strain nothing and change no modulus. Two-way, a step feels the rises at its start, as expansion and
 // in the times of materials (cell_temperature.h): of first order in the step. Where the load has cycles and a long time

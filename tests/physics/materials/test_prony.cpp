@@ -49,6 +49,25 @@ Tensor shear(double gamma) {
 
 Tensor dilation(double volume) { return (volume / 3.0 * Tensor::Identity()).eval(); }
 
+// The mean of q:q over a step by Simpson's rule, also where the formula changes, and held springs of any length of
+// step.
+TEST(PronySquare, IsTheMeanOfASpringThatIsStrainedEvenly) {
+  constexpr int parts = 10000;
+  for (const double x : {0.0, 1e-4, 9.99e-3, 1.001e-2, 0.5, 3.0, 40.0}) {
+    double start = 0.0, cross = 0.0, end = 0.0;
+    for (int k = 0; k <= parts; ++k) {
+      const double at = double(k) / parts, w = x > 0.0 ? std::expm1(-x * at) / std::expm1(-x) : at;
+      const double weight = (k == 0 || k == parts ? 1.0 : k % 2 == 1 ? 4.0 : 2.0) / (3.0 * parts);
+      start += weight * (1.0 - w) * (1.0 - w), cross += weight * 2.0 * w * (1.0 - w), end += weight * w * w;
+    }
+    const PronySquare found = square_over(x);
+    EXPECT_NEAR(found.start, start, 2e-9 * start) << x;
+    EXPECT_NEAR(found.cross, cross, 2e-9 * cross) << x;
+    EXPECT_NEAR(found.end, end, 2e-9 * end) << x;
+  }
+  EXPECT_NEAR(1e12 * square_over(1e12).start, 0.5, 1e-9);
+}
+
 // A ramp of the shear gamma within T, then held: tau = mu gamma + sum mu_i gamma tau_i/T (1 - exp(-T/tau_i))
 // exp(-(t-T)/tau_i), whatever the steps.
 TEST(Prony, RampAndRelaxationAreExactInAnySteps) {

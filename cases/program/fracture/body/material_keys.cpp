@@ -47,7 +47,7 @@ const Quantity quantities[] = {
     {"density", &MaterialKeys::density, dimension::density, range::positive, "none",
      "Mass density, on which gravity acts; damage takes no weight away."},
     {"conductivity", &MaterialKeys::conductivity, dimension::conductivity, range::positive, "required with [heat]",
-     "Thermal conductivity, also of damaged material."},
+     "Thermal conductivity, also of damaged material; at finite strain of the undeformed body."},
     {"specific_heat", &MaterialKeys::specific_heat, dimension::specific_heat, range::positive, "required with [heat]",
      "Specific heat capacity per mass."},
 };

@@ -1,0 +1,95 @@
+#!/usr/bin/env python3
+"""Heat of a point of viscous rubber that is strained to and fro without losing any: figures that
+tests/verification/finite_histories/heated_rubber.cpp is compared with. Needs NumPy and SciPy.
+
+A neo-Hookean spring beside a Maxwell branch, F = F_e F_v (Reese, Govindjee, Int. J. Solids Struct. 35 (1998) 3455). The
+viscous gradient F_v itself is integrated, F_v' = D_v F_v, and not C_v as the program does; D_v has the direction of the
+deviator of Mandel's stress of the isochoric spring. The heat is integrated beside it, and compared with work less energy.
+"""
+import numpy as np
+from scipy.integrate import solve_ivp
+from scipy.optimize import brentq
+
+MU, BRANCH, TAU, CAPACITY, PERIOD = 1e6, 2e6, 1e-2, 1500.0 * 1000.0, 0.05
+ONE = np.eye(3)
+
+
+def elastic(F, F_v):
+    """Isochoric b_e' of the branch, 3 x 3, and J."""
+    J = np.linalg.det(F)
+    F_e = J ** (-1 / 3) * F @ np.linalg.inv(F_v)
+    return F_e, J
+
+
+def flow(F, F_v, tau):
+    """F_v' and the heat per time and reference volume [W/m^3]. The spring's energy is BRANCH/2 J^(2/3) (tr b_e' - 3)."""
+    F_e, J = elastic(F, F_v)
+    C_e = F_e.T @ F_e
+    deviator = C_e - np.trace(C_e) / 3 * ONE
+    D = deviator / (2 * tau)
+    return D @ F_v, BRANCH * J ** (2 / 3) * np.tensordot(deviator, D)
+
+
+def stress(F, F_v, Lambda):
+    """First Piola-Kirchhoff [Pa]: energies MU/2 (I1 - 3) - MU ln J + Lambda/2 (J - 1)^2, and the branch's."""
+    F_e, J = elastic(F, F_v)
+    inverse = np.linalg.inv(F).T
+    b_e = F_e @ F_e.T
+    branch = BRANCH * J ** (2 / 3) * (b_e - ONE)  # Kirchhoff: of J^(2/3) (tr b_e' - 3)/2 at constant F_v
+    return MU * (F - inverse) + Lambda * (J - 1) * J * inverse + branch @ inverse
+
+
+def energy(F, F_v, Lambda):
+    F_e, J = elastic(F, F_v)
+    return (MU / 2 * (np.tensordot(F, F) - 3) - MU * np.log(J) + Lambda / 2 * (J - 1) ** 2
+            + BRANCH / 2 * J ** (2 / 3) * (np.tensordot(F_e, F_e) - 3))
+
+
+def shear(amplitude):
+    def at(t, F_v):
+        F = ONE.copy()
+        F[0, 1] = amplitude * np.sin(2 * np.pi * t / PERIOD)
+        rate = np.zeros((3, 3))
+        rate[0, 1] = amplitude * 2 * np.pi / PERIOD * np.cos(2 * np.pi * t / PERIOD)
+        return F, rate
+    return at
+
+
+def tension(amplitude, Lambda):
+    """Uniaxial stress; the part of the rate across does no work."""
+    def at(t, F_v):
+        a = 1 + amplitude * np.sin(2 * np.pi * t / PERIOD)
+        lateral = brentq(lambda b: stress(np.diag([a, b, b]), F_v, Lambda)[1, 1], 0.3, 3.0, xtol=1e-15, rtol=1e-14)
+        rate = np.zeros((3, 3))
+        rate[0, 0] = amplitude * 2 * np.pi / PERIOD * np.cos(2 * np.pi * t / PERIOD)
+        return np.diag([a, lateral, lateral]), rate
+    return at
+
+
+def rises(at, Lambda, cycles):
+    """Rise at the end of each cycle [K], and work less stored energy over the heat."""
+    def rate(t, y):
+        F_v = y[:9].reshape(3, 3)
+        F, F_rate = at(t, F_v)
+        F_v_rate, heat = flow(F, F_v, TAU)
+        return np.concatenate([F_v_rate.ravel(), [heat, np.tensordot(stress(F, F_v, Lambda), F_rate)]])
+    ends = PERIOD * np.arange(1, cycles + 1)
+    y = solve_ivp(rate, (0, ends[-1]), np.concatenate([ONE.ravel(), [0.0, 0.0]]), t_eval=ends, method="DOP853",
+                  rtol=1e-11, atol=1e-13).y
+    F_v = y[:9, -1].reshape(3, 3)
+    account = (y[10, -1] - energy(at(ends[-1], F_v)[0], F_v, Lambda)) / y[9, -1]
+    return y[9] / CAPACITY, account
+
+
+def main():
+    for amplitude in (1e-3, 0.8):
+        of_cycle, account = rises(shear(amplitude), 0.0, 3)
+        print(f"shear {amplitude:g}:", *(f"{rise:.10g} K" for rise in of_cycle), f"account {account:.9f}")
+    for poisson in (0.3, 0.4995):
+        Lambda = MU * 2 * poisson / (1 - 2 * poisson)
+        of_cycle, account = rises(tension(0.5, Lambda), Lambda, 3)
+        print(f"tension, nu {poisson}:", *(f"{rise:.10g} K" for rise in of_cycle), f"account {account:.9f}")
+
+
+if __name__ == "__main__":
+    main()
