@@ -29,6 +29,11 @@ void check(const HyperelasticLaw& law, const HyperelasticParameters& p) {
                     law.name, nu, nearly_incompressible));
   if (law.name == "saint_venant_kirchhoff" && !p.branches.empty())
     throw InputError("a material of the law \"saint_venant_kirchhoff\" cannot have shear_branches; choose neo_hookean");
+  if (p.shift && p.branches.empty())
+    throw InputError(
+        fmt::format("a material of the law \"{}\" has a temperature_shift but no shear_branches, whose times it would "
+                    "shift",
+                    law.name));
   if (!(p.second_invariant >= 0.0 && p.second_invariant <= 1.0))
     throw InputError(fmt::format("second_invariant is {}; it must be between 0 and 1", p.second_invariant));
   if (p.shares.size() != p.exponents.size())
@@ -94,7 +99,7 @@ void HyperelasticMaterial::choose_pressure(double shear_lambda) {
       pressure_modulus_ = std::max(Lambda_ - moderate, 0.5 * Lambda_);
     return;
   }
-  prony_ = {.relaxed = elasticity(), .shear = p_.branches, .drive = p_.drive};
+  prony_ = {.relaxed = elasticity(), .shear = p_.branches, .drive = p_.drive, .shift = p_.shift};
   require_branches(prony_);
   if (!(elasticity().poisson_ratio() > most_without_pressure)) return;
   const IsotropicElasticity at_once = instantaneous_elasticity(prony_);

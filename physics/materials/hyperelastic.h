@@ -33,6 +33,7 @@
 #include "physics/materials/viscous_branches.h"
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace pfdm {
@@ -65,6 +66,7 @@ struct HyperelasticParameters {
   std::vector<double> exponents{};      ///< alpha_p, one per share; not zero
   std::vector<PronyBranch> branches{};  ///< in shear; none: the material is elastic
   PronyDrive drive = PronyDrive::equilibrium;
+  std::optional<TemperatureShift> shift{};  ///< of the branches' times; none: they do not depend on the temperature
   std::shared_ptr<const OwnStrainEnergy> own{};  ///< in place of that of a law
 };
 

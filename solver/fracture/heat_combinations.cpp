@@ -10,9 +10,6 @@ namespace pfdm {
 
 // Time goes on, with a step's heat in it, and each cell conducts.
 void require_heat(const Mesh& mesh, const FractureModel& m, const LoadingSettings& loading) {
-  if (m.is_finite_strain() && m.is_warmed())
-    throw InputError(
-        "heat that acts back (heat.coupling = \"two_way\") cannot be combined with materials of finite strain");
   if (m.motion.any()) throw InputError("heat ([heat]) cannot be combined with a box that follows a mean strain");
   if (loading.controls_dissipation())
     throw InputError(

@@ -81,6 +81,37 @@ def rises(at, Lambda, cycles):
     return y[9] / CAPACITY, account
 
 
+def shift(law, T):
+    """a_T of a temperature [K]: WLF (Williams, Landel, Ferry 1955), or Arrhenius."""
+    if law == "wlf":
+        return 10.0 ** (-8.86 * (T - 300.0) / (101.6 + T - 300.0))
+    return np.exp(120e3 / 8.314462618 * (1.0 / T - 1.0 / 290.0))
+
+
+def warmed(law, expansion):
+    """Sheared by sin, its volume held, while rises strain it (F_e = F/(1 + expansion rise)) and shift the branch's time:
+    rise [K] and nominal stresses along and across the shear [Pa] after 1.25 and 3.25 cycles."""
+    at, start, ratio = shear(1.0), 290.0, 0.3
+    Lambda = MU * 2 * ratio / (1 - 2 * ratio)
+
+    def elastic_part(t, rise):
+        free = 1.0 + expansion * rise
+        return at(t, None)[0] / free, free
+
+    def rate(t, y):
+        F_e, free = elastic_part(t, y[9])
+        F_v_rate, heat = flow(F_e, y[:9].reshape(3, 3), TAU * shift(law, start + y[9]))
+        return np.concatenate([F_v_rate.ravel(), [free ** 3 * heat / CAPACITY]])
+
+    ends = PERIOD * np.array([1.25, 3.25])
+    y = solve_ivp(rate, (0, ends[-1]), np.concatenate([ONE.ravel(), [0.0]]), t_eval=ends, method="DOP853", rtol=1e-11,
+                  atol=1e-13).y
+    for k, t in enumerate(ends):
+        F_e, free = elastic_part(t, y[9, k])
+        P = free ** 2 * stress(F_e, y[:9, k].reshape(3, 3), Lambda)
+        yield y[9, k], P[0, 1], P[1, 1]
+
+
 def main():
     for amplitude in (1e-3, 0.8):
         of_cycle, account = rises(shear(amplitude), 0.0, 3)
@@ -89,6 +120,10 @@ def main():
         Lambda = MU * 2 * poisson / (1 - 2 * poisson)
         of_cycle, account = rises(tension(0.5, Lambda), Lambda, 3)
         print(f"tension, nu {poisson}:", *(f"{rise:.10g} K" for rise in of_cycle), f"account {account:.9f}")
+    for law in ("wlf", "arrhenius"):
+        for expansion in (0.0, 1e-3):
+            for rise, along, across in warmed(law, expansion):
+                print(f"two-way, {law}, expansion {expansion:g}/K: {rise:.10g} K, {along:.10g} Pa, {across:.10g} Pa")
 
 
 if __name__ == "__main__":

@@ -57,6 +57,8 @@ class FiniteCells {
   FiniteLaw law(FinitePlace at, const Tensor& H, const Degraded& left, const FreeDeformation& free = {}) const;
   const FiniteHistories& histories() const { return histories_; }
   void set_own_sides(std::vector<Index> cells) { histories_.set_own_sides(std::move(cells)); }
+  /// a_T of every cell (temperature_shift.h) in the steps that follow; empty: 1.
+  void shift_times(const CellField<double>& factor) { histories_.shift_times(factor); }
   /// Begins a step at these histories, which takes `duration` [s]; 0: holds them. Laws and energies are those of it.
   void start_from(const CellHistories& start, double duration) { histories_.start_from(start, duration); }
   /// Takes the histories of viscoelastic cells, if there are any, to the deformation of now.

@@ -25,7 +25,7 @@ FiniteHistories::FiniteHistories(const Mesh& mesh, const CellField<const Hyperel
   const std::size_t n = mesh.n_cells();
   left_.sound = CellField<IsotropicElasticity>(n);
   left_.relaxes = CellField<char>(n, 0);
-  for (const HyperelasticMaterial* material : material_) modulus_of_[material] = 0.0;
+  modulus_ = CellField<double>(n, 0.0);
 }
 
 void FiniteHistories::set_own_sides(std::vector<Index> cells) {
@@ -45,12 +45,13 @@ void FiniteHistories::start_from(const CellHistories& start, double duration) {
   if (!any()) return;
   start_ = start;
   duration_ = duration;
-  gaps_.start_step(duration);
-  for (auto& [material, modulus] : modulus_of_) modulus = material->branches().modulus_over(duration);
+  gaps_.start_step(duration, shift_);
   left_.volumes = CellField<VolumeStress>(mesh_.n_cells());
   left_.gaps.assign(mesh_.cell_faces.size(), {});
   parallel_for(mesh_.n_cells(), [&](Index c) {
-    if (has(c)) gaps_.tell(c, gap_numbers(c, start_), RelaxingGaps::At::start, left_);
+    if (!has(c)) return;
+    modulus_[c] = material_[c]->branches().modulus_over(this->duration(c));
+    gaps_.tell(c, gap_numbers(c, start_), RelaxingGaps::At::start, left_);
   });
 }
 

@@ -12,7 +12,6 @@
 #include "solver/fracture/model/fracture_model.h"
 #include "solver/fracture/model/state.h"
 
-#include <map>
 #include <vector>
 
 namespace pfdm {
@@ -38,18 +37,20 @@ class FiniteHistories {
     return own < 0 ? FinitePlace{number} : FinitePlace{cells_of_own_[own], own};
   }
 
+  /// a_T of every cell (temperature_shift.h) in the steps that follow; empty: 1.
+  void shift_times(const CellField<double>& factor) { shift_ = factor; }
   /// Begins a step at these histories, which takes `duration` [s]; 0: holds them.
   void start_from(const CellHistories& start, double duration);
   /// What the place was at the start of the step; of a cell that has() one.
   PointBefore before(FinitePlace at) const {
     const Index k = number(at);
-    return {start_.gradient(k), duration_, law_numbers(k, start_)};
+    return {start_.gradient(k), duration(at.cell), law_numbers(k, start_)};
   }
   const ViscousBranches& branches(Index cell) const {
     return is_plane_stress_ ? material_[cell]->branches() : material_[cell]->branches_of_cells();
   }
   /// Shear modulus of the branches that a small change of strain meets in the step [Pa].
-  double modulus(Index cell) const { return modulus_of_.at(material_[cell]); }
+  double modulus(Index cell) const { return modulus_[cell]; }
   /// What the branches have left of earlier gaps, by Mesh::cell_faces, sum mu_i left_i; empty: no cell relaxes [Pa].
   const std::vector<GapStress>& gaps() const { return left_.gaps; }
   /// Sum of mu_i times what is left of earlier volume strains, by the flux through the faces [Pa].
@@ -67,6 +68,7 @@ class FiniteHistories {
   }
 
  private:
+  double duration(Index cell) const { return shift_.size() > 0 ? duration_ / shift_[cell] : duration_; }  // reduced
   Index number(FinitePlace at) const { return at.own < 0 ? at.cell : mesh_.n_cells() + at.own; }
   std::size_t law_size(Index number) const { return branches(place(number).cell).size(); }
   std::span<const double> law_numbers(Index number, const CellHistories& histories) const {
@@ -84,7 +86,8 @@ class FiniteHistories {
   CellHistories start_;
   double duration_ = 0.0;
   HistoryStress left_;
-  std::map<const HyperelasticMaterial*, double> modulus_of_;
+  CellField<double> shift_;    // may be empty
+  CellField<double> modulus_;  // of the step [Pa]
 };
 
 }  // namespace pfdm

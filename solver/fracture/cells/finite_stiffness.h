@@ -12,6 +12,10 @@ class FiniteStiffness final : public CellStiffness {
 
   void set_own_sides(std::vector<Index> cells) override { cells_.set_own_sides(std::move(cells)); }
   CellHistories virgin_histories() const override { return cells_.histories().virgin_histories(); }
+  void start_step(double duration, const CellField<double>& shift = {}) override {
+    cells_.shift_times(shift);
+    CellStiffness::start_step(duration, shift);
+  }
   void start_from(const FractureState& start, double duration) override {
     cells_.start_from(start.histories, duration);
   }

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -160,6 +161,27 @@ TEST(HeatCase, ActsBackAndGoesOnAfterAStop) {
     EXPECT_EQ(content_of(whole.results() / file), content_of(stopped.results() / file)) << file;
 }
 
+// The same of rubber at finite strain, sheared by 3 %: cycles, rises and shifts are those of small strain to its
+// square.
+TEST(HeatCase, OfRubberAtFiniteStrainIsThatOfSmallStrain) {
+  const TemporaryCase small(acts_back), finite(replaced(acts_back, "law = \"prony\"", "law = \"neo_hookean\""));
+  std::array<nlohmann::json, 2> summary;
+  for (const TemporaryCase* directory : {&small, &finite}) {
+    const Outcome outcome = run({"run", directory->path().string(), "--quiet"});
+    ASSERT_EQ(outcome.status, 0) << outcome.err;
+    summary.at(directory == &small ? 0 : 1) = nlohmann::json::parse(content_of(directory->results() / "summary.json"));
+  }
+  EXPECT_EQ(read_csv(finite.results() / "heat.csv").column("time_s").back(), 400.0);
+  for (const char* name : {"final_mean_rise_K", "final_greatest_rise_K", "final_heat_J", "final_lost_heat_J"}) {
+    const double due = summary[0].at(name).get<double>();
+    EXPECT_NEAR(summary[1].at(name).get<double>(), due, 5e-3 * due) << name;
+  }
+  ASSERT_EQ(run({"report", finite.path().string(), "--quiet"}).status, 0);
+  const std::string page = content_of(finite.results() / "report" / "index.html");
+  for (const char* caption : {"\"Greatest temperature rise\"", "\"Temperature rise\"", "\"temperature rise\""})
+    EXPECT_NE(page.find(caption), std::string::npos) << caption;
+}
+
 TEST(HeatCase, SaysThatTheLoadEndsBeforeTheTime) {
   const TemporaryCase directory(replaced(acts_back, "end = 60", "end = 4"));
   const Outcome outcome = run({"run", directory.path().string()});
@@ -175,6 +197,12 @@ TEST(HeatCase, ThatActsBackIsRefused) {
             "}\n",
             "",
             {"start_temperature", "temperature_shift"}},
+           {"no branches",
+            "law = \"prony\"\nyoung_modulus = \"2 MPa\"\npoisson_ratio = 0.4\nshear_branches = [{ modulus = \"1 MPa\", "
+            "time "
+            "= \"1 ms\" }]\n",
+            "law = \"neo_hookean\"\nyoung_modulus = \"2 MPa\"\npoisson_ratio = 0.4\n",
+            {"neo_hookean", "temperature_shift", "shear_branches"}},
            {"energy", "\"200 kJ/mol\"", "\"200 kJ\"", {"activation_energy", "60 kJ/mol"}},
            {"law", "\"arrhenius\"", "\"vogel\"", {"vogel", "wlf", "arrhenius"}},
            {"too cold",

@@ -11,6 +11,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 namespace pfdm::verification::this_file {
 namespace {
@@ -19,9 +20,14 @@ constexpr double pi = std::numbers::pi, capacity = 1500.0 * 1000.0;  // [J/(m^3 
 constexpr double mu = 1e6, branch = 2e6, tau = 1e-2, period = 0.05;
 using Rises = std::array<double, 3>;  // at the ends of three cycles [K]
 
-std::shared_ptr<const Material> rubber(double poisson) {
+const TemperatureShift wlf{.law = TemperatureShift::Law::wlf, .reference = 300.0, .c1 = 8.86, .c2 = 101.6};
+const TemperatureShift arrhenius{
+    .law = TemperatureShift::Law::arrhenius, .reference = 290.0, .activation_energy = 120e3};
+
+std::shared_ptr<const Material> rubber(double poisson, std::optional<TemperatureShift> shift = {}, double time = tau) {
   return make_hyperelastic("neo_hookean", {.elasticity = from_young_poisson(2.0 * mu * (1.0 + poisson), poisson),
-                                           .branches = {{.modulus = branch, .time = tau}}});
+                                           .branches = {{.modulus = branch, .time = time}},
+                                           .shift = shift});
 }
 
 void give_heat(FractureModel& model, HeatModel heat) {
@@ -184,6 +190,87 @@ TEST(HeatedRubber, ATornCellIsWarmedByWhatItsBranchesLose) {
   EXPECT_GT(last.max_damage, 0.5);
   EXPECT_GT(last.energy.viscous_dissipation, 0.0);
   EXPECT_LT(std::abs(left_over({}, last.energy)), 2e-2 * last.energy.external_work);
+}
+
+// --- Rises that act on the body ------------------------------------------------------------------------------------
+
+// At another temperature, the times of the reference times a_T: to the last digits. Cells have a pressure or none.
+TEST(HeatedRubber, AtAnotherTemperatureItHasOtherTimes) {
+  constexpr double held_at = 290.0;
+  const Mesh mesh = bar(BoxCells::tetrahedra);
+  for (const double poisson : {0.3, 0.4995}) {
+    const auto force = [&](const std::shared_ptr<const Material>& material) {
+      FractureModel model =
+          finite_body(mesh, material,
+                      {displacement_on("xmin", [](const Vector&) -> Vector { return Vector::Zero(); }),
+                       moved("xmax", {true, true, true}, [](const Vector&, double t) -> Vector {
+                         return {0.5 * t, 0.3 * t, 0.0};
+                       })});
+      model.loads.start_temperature = held_at;
+      FractureRun run(mesh, model, {.equilibrium_tolerance = 1e-12}, cycles(1.0, 10));
+      Vector found;
+      run_to_end(run, [&](const FractureState&, const StepReport& report) {
+        found = report.reaction[mesh.patch_index("xmax")];
+      });
+      return found;
+    };
+    TemperatureShift shift = wlf;
+    shift.reference = 280.0;
+    const double time = tau * std::pow(10.0, -8.86 * 10.0 / (101.6 + 10.0));
+    const Vector due = force(rubber(poisson, {}, time)), unshifted = force(rubber(poisson));
+    EXPECT_LT((force(rubber(poisson, shift)) - due).norm(), 1e-8 * due.norm()) << poisson;
+    EXPECT_GT((unshifted - due).norm(), 0.05 * due.norm()) << poisson;
+  }
+}
+
+struct Warmed {
+  double rise, along, across;  // [K], nominal stresses [Pa]
+};
+
+// Sheared by 1 to and fro, its volume held, without losing heat: after 1.25 and 3.25 cycles.
+std::array<Warmed, 2> warmed(const TemperatureShift& shift, double expansion, int steps_each) {
+  const Mesh mesh = bar(BoxCells::hexahedra);
+  FractureModel model = finite_body(mesh, rubber(0.3, shift), sheared(mesh, 1.0));
+  model.regions[0].expansion = expansion * Tensor::Identity();
+  model.loads.start_temperature = 290.0;
+  give_heat(model, {.is_two_way = true});
+  FractureRun run(mesh, model, {.equilibrium_tolerance = 1e-11}, cycles(3.25, steps_each));
+  std::array<Warmed, 2> found{};
+  run_to_end(run, [&](const FractureState&, const StepReport& report) {
+    if (report.step > 0) expect_account(report, report.energy.plastic_dissipation);
+    const Vector force = report.reaction[mesh.patch_index("ymax")];
+    if (report.step <= 5 * steps_each / 4) found[0] = {report.heat->figures.greatest, force.x(), force.y()};
+    found[1] = {report.heat->figures.greatest, force.x(), force.y()};
+  });
+  return found;
+}
+
+// The coupling is of first order in the step: errors halve with it, and what they tend to is the point's answer.
+TEST(HeatedRubber, ABlockThatWarmsItselfRelaxesFasterAndExpands) {
+  struct Case {
+    const TemperatureShift& shift;
+    double expansion;
+    std::array<Warmed, 2> due;
+  };
+  for (const Case& at :
+       {Case{wlf, 1e-3, {{{0.5141119464, 2623793.975, -291683.6501}, {1.3734669, 2521273.028, -448255.1607}}}},
+        {arrhenius, 0.0, {{{2.224700987, 1683237.501, -316388.4373}, {5.676402725, 1343757.857, -124286.196}}}},
+        {arrhenius, 1e-3, {{{2.227197767, 1686759.346, -331445.762}, {5.690952554, 1350269.735, -161176.6533}}}}}) {
+    const auto coarse = warmed(at.shift, at.expansion, 160), fine = warmed(at.shift, at.expansion, 320);
+    for (std::size_t k = 0; k < 2; ++k) {
+      const auto expect = [&](const char* what, double Warmed::*value, double over) {
+        const double due = at.due[k].*value, first = (coarse[k].*value - due) / over,
+                     second = (fine[k].*value - due) / over;
+        report_row(fmt::format("{}, expansion {}", what, at.expansion),
+                   {{"due", due}, {"160 steps", first}, {"320", second}, {"to none", 2.0 * second - first}});
+        EXPECT_LT(std::abs(second), 1e-3);
+        EXPECT_LT(std::abs(2.0 * second - first), 3e-4);
+      };
+      expect("rise", &Warmed::rise, at.due[k].rise);
+      expect("stress along", &Warmed::along, at.due[k].along);
+      expect("stress across", &Warmed::across, at.due[k].along);
+    }
+  }
 }
 
 }  // namespace

@@ -185,7 +185,7 @@ const KeyTable& material_keys() {
             {"kinematic_hardening", quantity(dimension::stress, range::not_negative), "0",
              "Slope of the back stress by the equivalent plastic strain.", j2}},
            prony_branch_keys(viscous, "prony"),
-           {temperature_shift_row("prony")},
+           {temperature_shift_row(viscous)},
            {{"driven_by", choice("driving energy", {"equilibrium", "stored"}), "\"equilibrium\"",
              "Energy that drives damage: of the relaxed elasticity, or all that is stored, also in the branches.",
              viscous},
