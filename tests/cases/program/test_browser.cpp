@@ -111,8 +111,9 @@ TEST(Browser, PageOfAMaterialPointHasItsCurves) {
   const auto summary = read_summary(directory.results() / summary_file);
   const std::vector<std::string> computed{"computed on", processor_name()};
   EXPECT_EQ(summary->processor, processor_name());
-  if (!processor_name().empty())
+  if (!processor_name().empty()) {
     EXPECT_THAT(data["origin"].get<std::vector<std::vector<std::string>>>(), testing::Contains(computed));
+  }
   EXPECT_THAT(data["title"].get<std::string>(), HasSubstr(":"));
 }
 
