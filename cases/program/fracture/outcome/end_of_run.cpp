@@ -49,7 +49,9 @@ Peak peak_of(const RunSummary& summary, const FractureCase& fracture, const Axes
       summary.other_figure(fmt::format("final_{}_Pa", axes.y)), summary.other_figure(fmt::format("final_{}", axes.x))};
 }
 
-bool moves_freely(const FractureCase& fracture) { return !fracture.box && !acts_on(fracture.output.curve.patch, fracture.boundary); }
+bool moves_freely(const FractureCase& fracture) {
+  return !fracture.box && !acts_on(fracture.output.curve.patch, fracture.boundary);
+}
 
 /// "greatest force 27.08 N at 624 um, the end of the curve"
 std::vector<std::string> lines_of_curve(const RunSummary& summary, const FractureCase& fracture,
