@@ -46,10 +46,25 @@ void find_release(std::span<const CurveRow> rows, Headlines& figures) {
   }
 }
 
+// Headlines::peak_force_at_most.
+double at_most_in_next_step(std::span<const CurveRow> rows, std::ptrdiff_t peak, int component) {
+  constexpr double lost = 0.9;
+  const auto force = [&](std::ptrdiff_t k) { return rows[static_cast<std::size_t>(k)].force[component]; };
+  const auto load = [&](std::ptrdiff_t k) { return rows[static_cast<std::size_t>(k)].load; };
+  const double most = force(peak);
+  if (peak < 1 || peak + 1 >= std::ssize(rows) || std::abs(force(peak + 1)) >= lost * std::abs(most)) return most;
+  const double rise = most - force(peak - 1), before = load(peak) - load(peak - 1), next = load(peak + 1) - load(peak);
+  return before > 0.0 && next > 0.0 && rise * most > 0.0 ? most + rise / before * next : most;
+}
+
 Json to_json(const Headlines& f) {
-  Json json = {{"peak_force_N", f.peak_force},   {"displacement_at_peak_m", f.displacement_at_peak},
-               {"load_at_peak", f.load_at_peak}, {"initial_stiffness_N_per_m", f.initial_stiffness},
-               {"final_force_N", f.final_force}, {"final_displacement_m", f.final_displacement},
+  Json json = {{"peak_force_N", f.peak_force},
+               {"displacement_at_peak_m", f.displacement_at_peak},
+               {"load_at_peak", f.load_at_peak},
+               {"peak_force_at_most_N", f.peak_force_at_most},
+               {"initial_stiffness_N_per_m", f.initial_stiffness},
+               {"final_force_N", f.final_force},
+               {"final_displacement_m", f.final_displacement},
                {"final_load", f.final_load}};
   for (const EnergyEntry& entry : energy_entries) json[fmt::format("{}_J", entry.figure)] = f.energy.*entry.value;
   json.update(Json{{"energy_balance_error", f.energy_balance_error},
@@ -102,8 +117,10 @@ Headlines headlines(std::span<const CurveRow> rows, int component) {
   Headlines figures;
   if (rows.empty()) return figures;
   const auto force = [component](const CurveRow& row) { return row.force[component]; };
-  const CurveRow& peak = *std::ranges::max_element(rows, {}, [&](const CurveRow& row) { return std::abs(force(row)); });
+  const auto at_peak = std::ranges::max_element(rows, {}, [&](const CurveRow& row) { return std::abs(force(row)); });
+  const CurveRow& peak = *at_peak;
   figures.peak_force = force(peak);
+  figures.peak_force_at_most = at_most_in_next_step(rows, at_peak - rows.begin(), component);
   figures.displacement_at_peak = peak.displacement;
   figures.load_at_peak = peak.load;
   figures.initial_stiffness = initial_stiffness(rows, component);

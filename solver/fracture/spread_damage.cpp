@@ -40,10 +40,10 @@ Softening softening_cells(const FractureState& before, const FractureState& now,
   return found;
 }
 
-// The direction of the largest mean strain of these cells: cracks are normal to it.
-Vector direction_of_strain(const Softening& softening, const CellField<Tensor>& strain, const Mesh& mesh) {
+// The direction of the largest mean elastic strain of these cells: cracks are normal to it.
+Vector direction_of_strain(const Softening& softening, const CellMechanics& mechanics, const Mesh& mesh) {
   Tensor mean = Tensor::Zero();
-  for (const Index c : softening.cells) mean += mesh.cell_volume[c] / softening.volume * strain[c];
+  for (const Index c : softening.cells) mean += mesh.cell_volume[c] / softening.volume * mechanics.elastic_strain(c);
   return Eigen::SelfAdjointEigenSolver<Tensor>(mean).eigenvectors().col(2);
 }
 
@@ -73,8 +73,8 @@ std::string SpreadDamage::remark(const FractureState& before, const FractureStat
   const Softening softening = softening_cells(before, now, staggered);
   if (softening.cells.empty() || softening.volume < 0.5 * softening.damaged || softening.largest > most) return "";
   if (staggered.damage_equation().unevenness(now.damage) > even) return "";
-  const Vector direction = direction_of_strain(
-      softening, staggered.momentum().balance().mechanics(now.displacement).strain, staggered.mesh());
+  const Vector direction =
+      direction_of_strain(softening, staggered.momentum().balance().mechanics(now.displacement), staggered.mesh());
   FractureState trial = now;
   trial.damage = gathered(softening, direction, staggered.model(), staggered.mesh(), now.damage);
   const double with_bump = staggered.reduced_energy(std::move(trial));

@@ -124,9 +124,8 @@ CellField<double> Staggered::surface_energy_density(const FractureState& state) 
 }
 
 bool Staggered::has_reduced_energy() const {
-  return !faces_.any() && !model_.has_eigenstrain() && !model_.is_finite_strain() && !stiffness_->has_histories() &&
-         !model_.has_strength() && !(model_.viscosity > 0.0) && !model_.motion.any() &&
-         model_.irreversibility != Irreversibility::history;
+  return !faces_.any() && !model_.is_finite_strain() && !stiffness_->has_histories() && !model_.has_strength() &&
+         !(model_.viscosity > 0.0) && !model_.motion.any() && model_.irreversibility != Irreversibility::history;
 }
 
 double Staggered::reduced_energy(FractureState state) {

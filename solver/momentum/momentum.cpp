@@ -110,11 +110,16 @@ void MomentumOperator::apply(const std::vector<Vector>& u, std::vector<Vector>& 
   tractions_->balance_pressures(u, sweep, out);
 }
 
-std::vector<Vector> MomentumOperator::load_vector(double t) const {
+std::vector<Vector> MomentumOperator::applied_forces(double t) const {
   std::vector<Vector> load = traction_forces(t);
   spins_.add_targets(*tractions_, loads_, t, load);
-  take_away_constant_forces(load);
   loads_.add_initial_turn(load);
+  return load;
+}
+
+std::vector<Vector> MomentumOperator::load_vector(double t) const {
+  std::vector<Vector> load = applied_forces(t);
+  take_away_constant_forces(load);
   return load;
 }
 

@@ -120,6 +120,9 @@ class MomentumOperator {
   /// Forces from prescribed tractions, pressures and body forces at the load parameter t [N]; pressures on the areas of
   /// the last linearisation.
   std::vector<Vector> traction_forces(double t) const { return loads_.forces(t); }
+  /// Those and what turns with the body: of the potential of the loads, which the elastic energy of strains less
+  /// eigenstrains is without.
+  std::vector<Vector> applied_forces(double t) const;
   /// Forces from prescribed tractions, pressures, body forces and initial stresses at the load parameter t [N].
   std::vector<Vector> load_vector(double t) const;
   /// Energy in elastic foundations, which is none of the body's [J].

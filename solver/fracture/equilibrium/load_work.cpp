@@ -7,7 +7,7 @@
 namespace pfdm {
 
 double potential_of_loads(const MomentumOperator& balance, const FractureState& state) {
-  const std::vector<Vector> load = balance.load_vector(state.load);
+  const std::vector<Vector> load = balance.applied_forces(state.load);
   double potential = balance.foundation_energy(state.displacement);
   for (std::size_t i = 0; i < load.size(); ++i) potential -= load[i].dot(state.displacement[i]);
   return potential;

@@ -35,7 +35,8 @@ TEST(EndOfRun, TellsTheFirstDebondingOfAnInterface) {
   EXPECT_EQ(summary["instruction_set"], instruction_set());
   EXPECT_THAT(outcome.out, HasSubstr("First debonding of \"glue\" between 0.084 and 0.096 mm, where the force goes "
                                      "from 333.3 to 83.33 mN"));
-  EXPECT_THAT(outcome.out, HasSubstr("Greatest force 1.833 N at 0.012 mm; 0 N at the end, 0.12 mm."));
+  EXPECT_THAT(outcome.out, HasSubstr("Greatest force 1.833 N at 0.012 mm, with shorter steps up to 3.667 N ([loading] "
+                                     "energy_release = 0.05); 0 N at the end, 0.12 mm."));
   EXPECT_THAT(outcome.out, HasSubstr("next: pfdm report " + glued.path().string()));
   EXPECT_THAT(outcome.out, HasSubstr("; 1 thread\n"));
   EXPECT_THAT(content_of(glued.results() / "run.log"), HasSubstr("First debonding of \"glue\""));

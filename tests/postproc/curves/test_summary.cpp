@@ -33,6 +33,7 @@ TEST(Headlines, of_a_bar_that_breaks) {
   EXPECT_EQ(f.peak_force, 6.0);
   EXPECT_EQ(f.displacement_at_peak, 3e-6);
   EXPECT_EQ(f.load_at_peak, 0.75);
+  EXPECT_EQ(f.peak_force_at_most, 8.0);  // 4 N in half the load, then a quarter
   EXPECT_DOUBLE_EQ(f.initial_stiffness, 2e6);
   EXPECT_EQ(f.final_force, 0.5);
   EXPECT_EQ(f.final_displacement, 4e-6);
@@ -58,6 +59,12 @@ TEST(Headlines, count_dissipation_in_the_balance) {
   EXPECT_NEAR(f.energy_balance_error, 0.025, 1e-12);
 }
 
+TEST(Headlines, of_a_bar_that_softens_have_no_other_peak) {
+  std::vector<CurveRow> rows = broken_bar();
+  rows.back().force[1] = 5.5;
+  EXPECT_EQ(headlines(rows, 1).peak_force_at_most, 6.0);
+}
+
 TEST(Headlines, in_compression_keep_the_sign_of_the_force) {
   std::vector<CurveRow> rows = broken_bar();
   for (CurveRow& row : rows) {
@@ -66,6 +73,7 @@ TEST(Headlines, in_compression_keep_the_sign_of_the_force) {
   }
   const Headlines f = headlines(rows, 1);
   EXPECT_EQ(f.peak_force, -6.0);
+  EXPECT_EQ(f.peak_force_at_most, -8.0);
   EXPECT_EQ(f.displacement_at_peak, -3e-6);
   EXPECT_DOUBLE_EQ(f.initial_stiffness, 2e6);
 }

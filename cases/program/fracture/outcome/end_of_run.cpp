@@ -38,12 +38,18 @@ Axes axes_of(const FractureCase& fracture, const CurveUnits& units) {
 /// Of force over displacement; of a box of stress over strain.
 struct Peak {
   double most, at, last, end;
+  double at_most = Headlines::none;  // by a coarse step that broke
   bool is_end() const { return most == last && at == end; }
+  bool is_coarse() const {
+    constexpr double bearable = 0.02;
+    return std::abs(at_most) > (1.0 + bearable) * std::abs(most);
+  }
 };
 
 Peak peak_of(const RunSummary& summary, const FractureCase& fracture, const Axes& axes) {
   const Headlines& f = *summary.figures;
-  if (!fracture.box) return {f.peak_force, f.displacement_at_peak, f.final_force, f.final_displacement};
+  if (!fracture.box)
+    return {f.peak_force, f.displacement_at_peak, f.final_force, f.final_displacement, f.peak_force_at_most};
   return {
       summary.other_figure(fmt::format("peak_{}_Pa", axes.y)), summary.other_figure(fmt::format("{}_at_peak", axes.x)),
       summary.other_figure(fmt::format("final_{}_Pa", axes.y)), summary.other_figure(fmt::format("final_{}", axes.x))};
@@ -67,6 +73,10 @@ std::vector<std::string> lines_of_curve(const RunSummary& summary, const Fractur
   std::string line = fmt::format("greatest {} {} at {}{}", axes.y_words, shown_in(axes.y_shown, peak.most), x,
                                  shown_in(axes.x_shown, peak.at));
   if (peak.is_end()) return {line + ", the end of the curve: it still rises there"};
+  if (peak.is_coarse())
+    line += fmt::format(
+        ", with shorter steps up to {} ([loading] {})", shown_in(axes.y_shown, peak.at_most),
+        std::isfinite(fracture.loading.energy_release) ? "a smaller finest_increment" : "energy_release = 0.05");
   return {fmt::format("{}; {} at the end, {}{}", line, shown_in(axes.y_shown, peak.last), x,
                       shown_in(axes.x_shown, peak.end))};
 }
@@ -241,7 +251,9 @@ std::vector<HeadFigure> run_figures(const FractureCase& fracture, const CurveUni
         {.label = fmt::format("Greatest {}", axes.y_words),
          .value = shown_in(axes.y_shown, peak.most),
          .note = fmt::format("at {}{}", fracture.box ? axes.x + " = " : "", shown_in(axes.x_shown, peak.at)) +
-                 (peak.is_end() ? ", the end of the curve" : "")});
+                 (peak.is_end() ? ", the end of the curve" : "") +
+                 (peak.is_coarse() ? fmt::format(", with shorter steps up to {}", shown_in(axes.y_shown, peak.at_most))
+                                   : "")});
   }
   for (HeadFigure& law : of_surfaces<HeadFigure>(results, figure_of_law)) figures.push_back(std::move(law));
   figures.push_back(
