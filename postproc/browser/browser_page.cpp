@@ -66,8 +66,11 @@ Json json_of(const Chart& chart) {
           {"series", series}};
 }
 
-/// Rows whose values have the signs of print; names and words stay as they are.
-std::vector<std::vector<std::string>> rows_in_print(std::vector<std::vector<std::string>> rows) {
+/// Rows whose values have the signs of print; names and words stay as they are, and so do tables of keys, whose values
+/// are those of a case file.
+std::vector<std::vector<std::string>> rows_in_print(const Table& table) {
+  std::vector<std::vector<std::string>> rows = table.rows;
+  if (table.has_header && !rows.empty() && !rows[0].empty() && rows[0][0] == "key") return rows;
   const auto begins_with_digit = [](std::string_view cell) {
     const std::size_t at = cell.starts_with('-') ? 1 : 0;
     return at < cell.size() && cell[at] >= '0' && cell[at] <= '9';
@@ -79,10 +82,8 @@ std::vector<std::vector<std::string>> rows_in_print(std::vector<std::vector<std:
 }
 
 Json json_of(const Table& table) {
-  return {{"kind", "table"},
-          {"caption", table.caption},
-          {"has_header", table.has_header},
-          {"rows", rows_in_print(table.rows)}};
+  return {
+      {"kind", "table"}, {"caption", table.caption}, {"has_header", table.has_header}, {"rows", rows_in_print(table)}};
 }
 
 Json json_of(const TextBlock& text) { return {{"kind", "text"}, {"caption", text.caption}, {"lines", text.lines}}; }

@@ -1,7 +1,9 @@
 """Tests of the module pfdm: what scripts see of cases, runs, fits and studies is what the command line makes."""
 
 import csv
+import gc
 import os
+import pathlib
 import signal
 import subprocess
 import threading
@@ -156,6 +158,26 @@ class Runs(Folder):
         self.assertFalse(frame.damage.flags.owndata)
         with self.assertRaisesRegex(AttributeError, "damage, "):
             frame.nothing
+
+    def test_are_views_that_outlive_them_and_leave_no_memory(self):
+        bar().run(self.folder / "r")
+
+        def resident():
+            gc.collect()
+            return int(pathlib.Path("/proc/self/statm").read_text().split()[1]) * 4096
+
+        for i in range(400):
+            run = pfdm.open(self.folder / "r")
+            damage = run.frames[-1].damage
+            volume = run.mesh.cell_data["volume"]
+            if i == 100:
+                first = resident()
+        copies = [each.copy() for each in (damage, volume)]
+        del run
+        self.assertLess(resident() - first, 1e6)
+        for view, copy in zip((damage, volume), copies, strict=True):
+            self.assertFalse(view.flags.owndata)
+            self.assertEqual(view.tobytes(), copy.tobytes())
 
     def test_have_the_same_fields_in_one_file(self):
         try:

@@ -61,7 +61,7 @@ tutorials = {
     "mesh": two_fibres,
     "curve": [Command(slow=True), Command(), Do(own_record), Replace("my_fit/case.toml", "[[experiment.specimens]]"),
               Shown("my_fit/case.toml"), Command(slow=True, quick="check"), Command(slow=True)],
-    "dcb_test": [Command(), Said(), Command(), Command(says=("verdict",)), Command()],
+    "dcb_test": [Command(), Said(), Command(), Command(slow=True, says=("verdict",)), Command(slow=True)],
     "composite": [Command(), Replace("my_composite/case.toml", "[mesh]"), Command(says=("cells 4756", "first debonding")),
                   Do(lambda folder: shutil.copytree(folder / "my_composite", folder / "my_finer",
                                                     ignore=shutil.ignore_patterns("results"))),

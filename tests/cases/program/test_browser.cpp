@@ -12,6 +12,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <map>
 
 namespace pfdm::this_file {
@@ -111,9 +112,8 @@ TEST(Browser, PageOfAMaterialPointHasItsCurves) {
   const auto summary = read_summary(directory.results() / summary_file);
   const std::vector<std::string> computed{"computed on", processor_name()};
   EXPECT_EQ(summary->processor, processor_name());
-  if (!processor_name().empty()) {
-    EXPECT_THAT(data["origin"].get<std::vector<std::vector<std::string>>>(), testing::Contains(computed));
-  }
+  const auto origin = data["origin"].get<std::vector<std::vector<std::string>>>();
+  EXPECT_EQ(std::ranges::count(origin, computed), processor_name().empty() ? 0 : 1);
   EXPECT_THAT(data["title"].get<std::string>(), HasSubstr(":"));
 }
 

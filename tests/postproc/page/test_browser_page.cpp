@@ -106,6 +106,8 @@ TEST(BrowserPage, HasValuesOfTablesInSignsOfPrint) {
   page.report.rows.push_back({.blocks = {Table{.caption = "t", .rows = {{"k^2 of um", "-3 um", "120.2 J/m^2"}}}}});
   EXPECT_EQ(data_of(page_as_html(page))["blocks"][0]["rows"][0],
             (std::vector<std::string>{"k^2 of um", "-3 µm", "120.2 J/m²"}));
+  page.report.rows[0].blocks = {Table{.caption = "k", .rows = {{"key", "one"}, {"a", "3 J/m^2"}}, .has_header = true}};
+  EXPECT_EQ(data_of(page_as_html(page))["blocks"][0]["rows"][1][1], "3 J/m^2");
 }
 
 TEST(BrowserPage, HasTheNumbersOfItsCharts) {
