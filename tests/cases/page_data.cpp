@@ -53,7 +53,7 @@ std::optional<nlohmann::json> told_by_browser(const std::filesystem::path& folde
   if (said_by("command -v chromium").empty()) return std::nullopt;
   std::ofstream(folder / "probe.html") << html << begin << expression << end;
   const std::string page = said_by(
-      fmt::format("HOME={0} timeout 100 chromium --headless=new --no-sandbox --use-gl=angle --use-angle=swiftshader "
+      fmt::format("HOME={0} timeout 300 chromium --headless=new --no-sandbox --use-gl=angle --use-angle=swiftshader "
                   "--enable-unsafe-swiftshader --window-size=1280,900 --virtual-time-budget=15000 --dump-dom "
                   "file://{0}/probe.html 2>/dev/null",
                   folder.string()));
