@@ -101,9 +101,9 @@ class Merge:
             if line.startswith("["):
                 table = line.strip()
             elif line.strip():
-                key = line.split("=")[0].strip()
-                text, n = re.subn(rf"({re.escape(table)}(?:(?!\n\[).)*?\n{key} *= )[^#\n]*", lambda m: m[1] + line.split("=", 1)[1].strip(),
-                                  text, count=1, flags=re.S)
+                key, value = (part.strip() for part in line.split("=", 1))
+                place = rf"({re.escape(table)}(?:(?!\n\[).)*?\n{key} *= )[^#\n]*"
+                text, n = re.subn(place, lambda m, value=value: m[1] + value, text, count=1, flags=re.S)
                 if n != 1:
                     raise AssertionError(f"{self.path}: no {key} in {table}")
         file.write_text(text)
