@@ -27,9 +27,10 @@ void check(const HyperelasticLaw& law, const HyperelasticParameters& p) {
         fmt::format("a material of the law \"{}\" with a Poisson's ratio of {}: this law has no pressure unknown; at "
                     "most {} is allowed",
                     law.name, nu, nearly_incompressible));
-  if (law.name == "saint_venant_kirchhoff" && !p.branches.empty())
+  const bool has_branches = !p.branches.empty() || !p.bulk_branches.empty();
+  if (law.name == "saint_venant_kirchhoff" && has_branches)
     throw InputError("a material of the law \"saint_venant_kirchhoff\" cannot have shear_branches; choose neo_hookean");
-  if (p.shift && p.branches.empty())
+  if (p.shift && !has_branches)
     throw InputError(
         fmt::format("a material of the law \"{}\" has a temperature_shift but no shear_branches, whose times it would "
                     "shift",
@@ -65,8 +66,8 @@ HyperelasticMaterial::HyperelasticMaterial(const HyperelasticLaw& law, Hyperelas
         "against changes of volume beyond its shear part's, {}; a larger Poisson's ratio is required",
         law_.name, elasticity().poisson_ratio(), quantity_text(Lambda_, "Pa")));
   choose_pressure(C(0, 1));
-  branches_ = ViscousBranches(p_.branches, p_.volumetric, 0.0);
-  branches_of_cells_ = ViscousBranches(p_.branches, p_.volumetric, bulk_ratio_);
+  branches_ = ViscousBranches(p_.branches, p_.volumetric, 0.0, p_.bulk_branches);
+  branches_of_cells_ = ViscousBranches(p_.branches, p_.volumetric, bulk_ratio_, p_.bulk_branches);
 }
 
 // C: dS/dE at F = 1 [Pa].
@@ -82,7 +83,7 @@ void HyperelasticMaterial::check_own(const MandelMatrix& C) const {
         "the energy has the shear modulus {} at F = 1, young_modulus and poisson_ratio of the case make {}; "
         "they must be the same",
         quantity_text(shear, "Pa"), quantity_text(mu, "Pa")));
-  const double limit = p_.branches.empty() ? nearly_incompressible : most_without_pressure;
+  const double limit = has_branches() ? most_without_pressure : nearly_incompressible;
   if (nu > limit && Lambda_ < 0.5 * elasticity().lambda)
     throw InputError(
         fmt::format("the energy has a volume energy of its own; with a Poisson's ratio of {:.6g}, above {:.3g}, leave "
@@ -90,17 +91,31 @@ void HyperelasticMaterial::check_own(const MandelMatrix& C) const {
                     nu, limit));
 }
 
+// The greatest Poisson's ratio that could come about: the shear has relaxed, and the volume has not at all.
+void HyperelasticMaterial::require_no_pressure() const {
+  double K = elasticity().bulk_modulus();
+  for (const PronyBranch& branch : p_.bulk_branches) K += branch.modulus;
+  const double mu = elasticity().mu, nu = (3.0 * K - 2.0 * mu) / (6.0 * K + 2.0 * mu);
+  if (nu > most_without_pressure)
+    throw InputError(fmt::format(
+        "a material of the law \"{}\" with bulk_branches whose Poisson's ratio could come to {:.4g}, as all bulk "
+        "branches beside the relaxed shear modulus make it: at most 0.4 is supported, where cells need no pressure",
+        law_.name, nu));
+}
+
 // shear_lambda: lambda of the shear part [Pa]. Of viscoelastic materials lambda_s/mu is one that leaves the pressure a
 // share of K before anything has relaxed.
 void HyperelasticMaterial::choose_pressure(double shear_lambda) {
-  if (p_.branches.empty()) {
+  if (!has_branches()) {
     const double moderate = std::max(moderate_lambda * elasticity().mu - shear_lambda, 0.0);
     if (elasticity().poisson_ratio() > nearly_incompressible)
       pressure_modulus_ = std::max(Lambda_ - moderate, 0.5 * Lambda_);
     return;
   }
-  prony_ = {.relaxed = elasticity(), .shear = p_.branches, .drive = p_.drive, .shift = p_.shift};
+  prony_ = {
+      .relaxed = elasticity(), .shear = p_.branches, .bulk = p_.bulk_branches, .drive = p_.drive, .shift = p_.shift};
   require_branches(prony_);
+  if (!p_.bulk_branches.empty()) require_no_pressure();
   if (!(elasticity().poisson_ratio() > most_without_pressure)) return;
   const IsotropicElasticity at_once = instantaneous_elasticity(prony_);
   const double ratio = std::min(moderate_lambda, (at_once.lambda - least_share * at_once.bulk_modulus()) / at_once.mu);

@@ -27,7 +27,7 @@
 // lambda_s = 2.5 mu (solver/momentum/body/cell_pressure.h), P = dW_m/dF + q cof F with W_m = W - c U.
 //
 // Viscoelastic materials have Maxwell branches beside this law (viscous_branches.h), which is then what is left at
-// rest. Their cells have a pressure if nu > 0.4; lambda_s relaxes as mu does.
+// rest. Their cells have a pressure if nu > 0.4; lambda_s relaxes as mu does. Cells with bulk branches have none.
 
 #include "physics/materials/material.h"
 #include "physics/materials/viscous_branches.h"
@@ -61,10 +61,11 @@ class OwnStrainEnergy {
 struct HyperelasticParameters {
   IsotropicElasticity elasticity;  ///< at small strain, of viscoelastic materials at rest [Pa]
   VolumetricForm volumetric = VolumetricForm::quadratic;
-  double second_invariant = 0.0;        ///< mu_01/mu of mooney_rivlin, 0 to 1
-  std::vector<double> shares{};         ///< of mu, of ogden and lopez_pamies; they sum to 1
-  std::vector<double> exponents{};      ///< alpha_p, one per share; not zero
-  std::vector<PronyBranch> branches{};  ///< in shear; none: the material is elastic
+  double second_invariant = 0.0;             ///< mu_01/mu of mooney_rivlin, 0 to 1
+  std::vector<double> shares{};              ///< of mu, of ogden and lopez_pamies; they sum to 1
+  std::vector<double> exponents{};           ///< alpha_p, one per share; not zero
+  std::vector<PronyBranch> branches{};       ///< in shear, and
+  std::vector<PronyBranch> bulk_branches{};  ///< of volume changes; none: the material is elastic
   PronyDrive drive = PronyDrive::equilibrium;
   std::optional<TemperatureShift> shift{};  ///< of the branches' times; none: they do not depend on the temperature
   std::shared_ptr<const OwnStrainEnergy> own{};  ///< in place of that of a law
@@ -94,8 +95,9 @@ class HyperelasticMaterial final : public Material {
   /// Throws InputError for shares that do not sum to 1 or are not as many as the exponents, an exponent of zero, and a
   /// second_invariant outside 0 to 1. Also for a Poisson's ratio above 0.47 for saint_venant_kirchhoff, which has no
   /// pressure, and parameters that make Lambda negative or the shear modulus not that of the elasticity; for branches
-  /// of it, and branches that are not positive. For an energy of one's own that is not isotropic at F = 1, and one
-  /// with a volume energy of its own above a Poisson's ratio of 0.47.
+  /// of it, and branches that are not positive; for bulk branches with which Poisson's ratio could exceed 0.4. For an
+  /// energy of one's own that is not isotropic at F = 1, and one with a volume energy of its own above a Poisson's
+  /// ratio of 0.47.
   HyperelasticMaterial(const HyperelasticLaw& law, HyperelasticParameters parameters);
 
   const HyperelasticParameters& parameters() const { return p_; }
@@ -148,6 +150,8 @@ class HyperelasticMaterial final : public Material {
 
  private:
   void check_own(const MandelMatrix& C) const;
+  bool has_branches() const { return !p_.branches.empty() || !p_.bulk_branches.empty(); }
+  void require_no_pressure() const;
   void choose_pressure(double shear_lambda);
   PotentialAt potential_with(double Lambda, const Tensor& H, double change) const;
   PotentialAt dilation_of(double Lambda, const Tensor& H) const;

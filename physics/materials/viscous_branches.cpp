@@ -80,12 +80,15 @@ struct ViscousBranches::Flow {
   double root = 1.0;    // (det M)^(1/3)
 };
 
-ViscousBranches::ViscousBranches(const std::vector<PronyBranch>& branches, VolumetricForm form, double bulk_ratio)
-    : branches_(branches),
+ViscousBranches::ViscousBranches(const std::vector<PronyBranch>& shear, VolumetricForm form, double bulk_ratio,
+                                 const std::vector<PronyBranch>& bulk)
+    : branches_(shear),
       form_(form),
       bulk_ratio_(bulk_ratio),
-      springs_(6 * branches.size()),
-      heat_(springs_ + (bulk_ratio > 0.0 ? branches.size() : 0)) {}
+      volume_(bulk, form),
+      springs_(6 * shear.size()),
+      volumes_(springs_ + (bulk_ratio > 0.0 ? shear.size() : 0)),
+      heat_(volumes_ + bulk.size()) {}
 
 double ViscousBranches::modulus_over(double duration) const {
   double sum = 0.0;
@@ -144,6 +147,10 @@ double ViscousBranches::spring(std::size_t i, const Shape& now, const Shape& bef
   return by.after(at.history[springs_ + i], volume_strain(now.change) - volume_strain(before.change));
 }
 
+VolumeBranches::Step ViscousBranches::volume_step(const Shape& now, const Shape& before, const PointBefore& at) const {
+  return {before.change, now.change, at.duration, at.history.subspan(volumes_, volume_.size())};
+}
+
 PotentialAt ViscousBranches::over(const Tensor& H, const PointBefore& before) const {
   PotentialAt sum;
   if (!any()) return sum;
@@ -159,6 +166,7 @@ PotentialAt ViscousBranches::over(const Tensor& H, const PointBefore& before) co
     of_springs.curvature += modulus * decay_over(before.duration / branches_[i].time).phi * volume.curvature;
   }
   if (bulk_ratio_ > 0.0) sum += by_volume(F, of_springs);
+  if (volume_.size() > 0) sum += by_volume(F, volume_.over(volume_step(now, earlier, before)));
   return sum;
 }
 
@@ -187,6 +195,11 @@ void ViscousBranches::advance(const Tensor& H, const PointBefore& before, std::s
     if (is_regular) heat += dissipated(i, now, earlier, before, flow_i);
     if (bulk_ratio_ > 0.0) history[springs_ + i] = spring(i, now, earlier, before);
     Eigen::Map<Mandel>(history.data() + 6 * i) = to_mandel(flow_i.strain);
+  }
+  if (volume_.size() > 0) {
+    const double of_volume =
+        volume_.advance(volume_step(now, earlier, before), history.subspan(volumes_, volume_.size()));
+    if (is_regular) heat += of_volume;
   }
   history[heat_] = heat;
 }

@@ -20,9 +20,12 @@
 // (relaxing_gaps.h). A branch then has a spring in bulk, of the modulus bulk_ratio mu_i, that bears v_i, v_i' +
 // v_i/tau_i = u', u being the volume strain of U (potential.h). The pressure takes away what the springs bear, so that
 // the whole material stores and dissipates nothing by it: energies are without.
+//
+// Branches of volume changes (volume_branches.h) come beside them.
 
 #include "physics/materials/potential.h"
 #include "physics/materials/prony.h"
+#include "physics/materials/volume_branches.h"
 
 #include <span>
 #include <vector>
@@ -39,15 +42,19 @@ struct PointBefore {
 class ViscousBranches {
  public:
   ViscousBranches() = default;  ///< none
-  /// The shear branches of a law. bulk_ratio: bulk modulus over shear modulus of their springs [-], 0: none.
-  ViscousBranches(const std::vector<PronyBranch>& branches, VolumetricForm form, double bulk_ratio);
+  /// The shear and the bulk branches of a law. bulk_ratio: bulk modulus over shear modulus of the springs of the
+  /// former [-], 0: none.
+  ViscousBranches(const std::vector<PronyBranch>& shear, VolumetricForm form, double bulk_ratio,
+                  const std::vector<PronyBranch>& bulk = {});
 
-  bool any() const { return !branches_.empty(); }
-  /// Numbers of a history: C_v - 1 of each branch in Mandel components, volume strains of their springs if there is a
-  /// bulk ratio, then the heat [J/m^3]. All are zero in the virgin state.
+  bool any() const { return heat_ > 0; }
+  /// Numbers of a history: C_v - 1 of each shear branch in Mandel components, volume strains of their springs if there
+  /// is a bulk ratio, what the bulk branches have, then the heat [J/m^3]. All are zero in the virgin state.
   std::size_t size() const { return any() ? heat_ + 1 : 0; }
   /// Sum of mu_i phi_i [Pa]: what a small change of strain meets in a step besides the relaxed shear modulus.
   double modulus_over(double duration) const;
+  /// Likewise of the bulk branches, besides the relaxed bulk modulus [Pa].
+  double bulk_modulus_over(double duration) const { return volume_.modulus_over(duration); }
 
   /// Energy, stress and consistent tangent at the end H of a step; finite for every H.
   PotentialAt over(const Tensor& H, const PointBefore& before) const;
@@ -65,11 +72,13 @@ class ViscousBranches {
   double dissipated(std::size_t branch, const Shape& now, const Shape& before, const PointBefore& at,
                     const Flow& flow) const;
   double spring(std::size_t branch, const Shape& now, const Shape& before, const PointBefore& at) const;
+  VolumeBranches::Step volume_step(const Shape& now, const Shape& before, const PointBefore& at) const;
 
   std::vector<PronyBranch> branches_;
   VolumetricForm form_;
   double bulk_ratio_ = 0.0;
-  std::size_t springs_ = 0, heat_ = 0;  // places in the history
+  VolumeBranches volume_;
+  std::size_t springs_ = 0, volumes_ = 0, heat_ = 0;  // places in the history
 };
 
 }  // namespace pfdm

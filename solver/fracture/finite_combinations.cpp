@@ -26,15 +26,29 @@ void require_finite_interfaces(const FractureModel& m) {
   }
 }
 
+// Gaps across a sheet have the modulus of its shear branches, and what a split keeps in closed cracks is elastic.
+void require_bulk_branches(const FractureModel& m, const RegionModel& region) {
+  if (region.material->relaxing()->bulk.empty()) return;
+  const auto refuse = [&](const std::string& what) {
+    throw InputError(fmt::format("a material of the law \"{}\" with bulk_branches cannot be combined with {}",
+                                 region.material->name(), what));
+  };
+  if (m.is_plane_stress()) refuse("plane stress");
+  const std::string_view split = m.split_of(region).name();
+  if (region.damageable && split != "none")
+    refuse(fmt::format("the energy split \"{}\"; leave out bulk_branches, or choose the split \"none\"", split));
+}
+
 // One modulus makes no strength.
 void require_finite_branches(const FractureModel& m) {
   for (const RegionModel& region : m.regions) {
     if (!region.material || region.material->relaxing() == nullptr) continue;
+    require_bulk_branches(m, region);
     const std::string_view law = region.material->name();
     const bool rational = region.damageable && m.degradation_of(region).law().needs_strength;
     if (rational || region.strength.is_chosen())
       throw InputError(fmt::format(
-          "a material of the law \"{}\" with shear_branches cannot be combined with {}, whose strength is that of one "
+          "a material of the law \"{}\" with branches cannot be combined with {}, whose strength is that of one "
           "modulus",
           law,
           rational ? fmt::format("the degradation \"{}\"", m.degradation_of(region).name()) : "a model of strength"));

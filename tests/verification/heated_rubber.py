@@ -112,6 +112,38 @@ def warmed(law, expansion):
         yield y[9, k], P[0, 1], P[1, 1]
 
 
+def volume_branch(poisson, K, tau, amplitude=0.3, cycles=3):
+    """Uniaxial stress with a bulk branch besides, K/2 (J_e - 1)^2, (ln J_v)' = ln J_e/tau: at 1.25 and 3.25 cycles rise
+    [K], nominal stress [Pa] and lateral stretch."""
+    Lambda = MU * 2 * poisson / (1 - 2 * poisson)
+
+    def total(F, F_v, log_J_v):
+        J = np.linalg.det(F)
+        J_e = J / np.exp(log_J_v)
+        return stress(F, F_v, Lambda) + K * (J_e - 1) * J_e * np.linalg.inv(F).T
+
+    def at(t, F_v, log_J_v):
+        a = 1 + amplitude * np.sin(2 * np.pi * t / PERIOD)
+        b = brentq(lambda b: total(np.diag([a, b, b]), F_v, log_J_v)[1, 1], 0.3, 3.0, xtol=1e-15, rtol=1e-14)
+        return np.diag([a, b, b])
+
+    def rate(t, y):
+        F_v = y[:9].reshape(3, 3)
+        F = at(t, F_v, y[9])
+        F_v_rate, heat = flow(F, F_v, TAU)
+        r = np.log(np.linalg.det(F)) - y[9]
+        of_volume = K * (np.exp(r) - 1) * np.exp(r) * r / tau
+        return np.concatenate([F_v_rate.ravel(), [r / tau, (heat + of_volume) / CAPACITY]])
+
+    ends = PERIOD * np.array([1.25, 3.25])
+    y = solve_ivp(rate, (0, ends[-1]), np.concatenate([ONE.ravel(), [0.0, 0.0]]), t_eval=ends, method="DOP853",
+                  rtol=1e-10, atol=1e-12).y
+    for k, t in enumerate(ends):
+        F_v = y[:9, k].reshape(3, 3)
+        F = at(t, F_v, y[9, k])
+        yield y[10, k], total(F, F_v, y[9, k])[0, 0], F[1, 1]
+
+
 def main():
     for amplitude in (1e-3, 0.8):
         of_cycle, account = rises(shear(amplitude), 0.0, 3)
@@ -120,6 +152,8 @@ def main():
         Lambda = MU * 2 * poisson / (1 - 2 * poisson)
         of_cycle, account = rises(tension(0.5, Lambda), Lambda, 3)
         print(f"tension, nu {poisson}:", *(f"{rise:.10g} K" for rise in of_cycle), f"account {account:.9f}")
+    for rise, force, lateral in volume_branch(0.2, 3e6, 2e-2):
+        print(f"bulk branch, nu 0.2: {rise:.10g} K, {force:.10g} Pa, lateral stretch {lateral:.10g}")
     for law in ("wlf", "arrhenius"):
         for expansion in (0.0, 1e-3):
             for rise, along, across in warmed(law, expansion):

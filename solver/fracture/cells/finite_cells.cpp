@@ -120,6 +120,7 @@ FiniteLaw FiniteCells::law(FinitePlace at, const Tensor& H, const Degraded& left
   law.sound_share *= share;
   law.memory.share *= share;
   law.memory.lambda /= free.volume() * share;
+  law.memory.bulk /= free.volume();
   law.face.mu *= share;
   law.face.lambda /= free.volume();
   law.swelling /= mean;
@@ -137,7 +138,8 @@ void FiniteCells::add_branches(FinitePlace at, const Tensor& H, const FiniteShar
   const double mu = histories_.modulus(at.cell), lambda = material.branch_ratio();
   law.face.mu += by.moderate.value * mu;
   law.face.lambda += by.moderate.value * lambda * mu;
-  law.memory = {.share = by.moderate.value, .lambda = lambda};
+  law.face.lambda += by.moderate.value * histories_.bulk_modulus(at.cell);
+  law.memory = {.share = by.moderate.value, .lambda = lambda, .bulk = by.moderate.value};
   law.sound_share = 1.0 + mu / material.elasticity().mu;
   if (law.pressure == nullptr) return;
   law.pressure_modulus -= (lambda + 2.0 / 3.0) * mu;

@@ -25,7 +25,7 @@ FiniteHistories::FiniteHistories(const Mesh& mesh, const CellField<const Hyperel
   const std::size_t n = mesh.n_cells();
   left_.sound = CellField<IsotropicElasticity>(n);
   left_.relaxes = CellField<char>(n, 0);
-  modulus_ = CellField<double>(n, 0.0);
+  modulus_ = bulk_modulus_ = CellField<double>(n, 0.0);
 }
 
 void FiniteHistories::set_own_sides(std::vector<Index> cells) {
@@ -51,6 +51,7 @@ void FiniteHistories::start_from(const CellHistories& start, double duration) {
   parallel_for(mesh_.n_cells(), [&](Index c) {
     if (!has(c)) return;
     modulus_[c] = material_[c]->branches().modulus_over(this->duration(c));
+    bulk_modulus_[c] = material_[c]->branches().bulk_modulus_over(this->duration(c));
     gaps_.tell(c, gap_numbers(c, start_), RelaxingGaps::At::start, left_);
   });
 }

@@ -51,6 +51,8 @@ class FiniteHistories {
   }
   /// Shear modulus of the branches that a small change of strain meets in the step [Pa].
   double modulus(Index cell) const { return modulus_[cell]; }
+  /// Likewise bulk modulus [Pa].
+  double bulk_modulus(Index cell) const { return bulk_modulus_[cell]; }
   /// What the branches have left of earlier gaps, by Mesh::cell_faces, sum mu_i left_i; empty: no cell relaxes [Pa].
   const std::vector<GapStress>& gaps() const { return left_.gaps; }
   /// Sum of mu_i times what is left of earlier volume strains, by the flux through the faces [Pa].
@@ -86,8 +88,8 @@ class FiniteHistories {
   CellHistories start_;
   double duration_ = 0.0;
   HistoryStress left_;
-  CellField<double> shift_;    // may be empty
-  CellField<double> modulus_;  // of the step [Pa]
+  CellField<double> shift_;                   // may be empty
+  CellField<double> modulus_, bulk_modulus_;  // of the step [Pa]
 };
 
 }  // namespace pfdm

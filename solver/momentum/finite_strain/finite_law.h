@@ -26,7 +26,8 @@ struct FiniteLaw {
   /// What gaps meet of the branches of a viscoelastic cell (finite_memory.h).
   struct Memory {
     double share = 0.0;   ///< of their stress that is left by damage; 0: there are none
-    double lambda = 0.0;  ///< over mu
+    double lambda = 0.0;  ///< over mu, of the shear branches
+    double bulk = 0.0;    ///< share of the bulk branches
   } memory{};
 
   VolumeAt volume(double q) const {

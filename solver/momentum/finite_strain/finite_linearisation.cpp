@@ -71,14 +71,15 @@ Vector FiniteTractions::true_traction(Index cell, const Vector& n, const Vector&
 Vector FiniteTractions::remembered(Index cell, const Vector& n, std::size_t turn) const {
   if (!memory_.any()) return Vector::Zero();
   const Vector c = states_.cofactor_at(cell, turn) * n, &x = memory_.left(turn);
-  return x + states_.memory_push(cell, turn).stiffness * c.dot(x) * c;
+  const double bulk = states_.jump_share(cell) * memory_.bulk_left(turn);
+  return x + (states_.memory_push(cell, turn).stiffness * c.dot(x) + bulk) * c;
 }
 
 void FiniteTractions::remember(Index cell, const Vector& c, std::size_t turn, FaceTurn& by) const {
   if (!memory_.any()) return;
   const Push m = states_.memory_push(cell, turn);
   const Vector& x = memory_.left(turn);
-  by.turn += turn_of(m.stiffness, c, x);
+  by.turn += turn_of(m.stiffness, c, x) + states_.jump_share(cell) * memory_.bulk_left(turn) * Tensor::Identity();
   by.swell += m.slope * c.dot(x) * c;
 }
 

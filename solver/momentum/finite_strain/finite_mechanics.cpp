@@ -119,11 +119,14 @@ void FiniteTractions::add_gaps(const FaceMoves& moves, CellMechanics& result) co
       const Vector d = mesh.face_centre[f] - mesh.cell_centre[c];
       const double h = std::abs(d.dot(mesh.face_area[f].normalized()));
       const Vector move = moves.seen_from(c, f) - moves.u[c];
-      const Vector back = memory_.rotation(c).transpose() * gap(c, d, turn, move, moves);
-      result.gaps[at] = {.strain = states_.stiffer_at(turn) / h * back,
+      const Vector y = gap(c, d, turn, move, moves), back = memory_.rotation(c).transpose() * y;
+      const double scale = states_.stiffer_at(turn) / h;
+      const Vector area = states_.cofactor_at(c, turn) * mesh.outward_area(f, c).normalized();
+      result.gaps[at] = {.strain = scale * back,
+                         .along = scale * area.dot(y),
                          .volume = mesh.face_area[f].norm() * h,
                          .by_shear = 1.0 + states_.memory_push(c, turn).stiffness,
-                         .by_bulk = 0.0};
+                         .by_bulk = states_.jump_share(c)};
     });
   });
 }

@@ -5,9 +5,10 @@
 // (solver/fracture/cells/relaxing_gaps.h). What they have left of earlier gaps is an initial traction of the side
 // beside a y,
 //
-//   x + m (c.x) c,  x = share R sum mu_i left_i,  m = lambda/mu of the branches + phi(J)
+//   x + (m (c.x) + b) c,  x = share R sum mu_i left_i,  m = lambda/mu of the branches + phi(J)
 //
-// (finite_tractions.h), outwards from the cell; m is capped in polyhedra as the stiffness of their jumps is.
+// (finite_tractions.h), outwards from the cell; m is capped in polyhedra as the stiffness of their jumps is. b is what
+// bulk branches have left of earlier c.y, over the distance of the face, times their moduli.
 
 #include "solver/momentum/body/cell_mechanics.h"
 #include "solver/momentum/faces/face_skeleton.h"
@@ -21,7 +22,7 @@ class FiniteMemory {
  public:
   explicit FiniteMemory(const FaceSkeleton& skeleton) : skeleton_(skeleton) {}
 
-  /// What is left of earlier gaps, sum mu_i left_i [Pa], by Mesh::cell_faces; empty: no cell relaxes.
+  /// What is left of earlier gaps, sums of mu_i and of K_j times it [Pa], by Mesh::cell_faces; empty: no cell relaxes.
   void set(const std::vector<GapStress>& gaps);
   /// Turns it with the cells, once the states are linearised.
   void turn(const FiniteStates& states);
@@ -31,6 +32,8 @@ class FiniteMemory {
   const Tensor& rotation(Index cell) const { return rotation_[cell]; }
   /// x [Pa] on side number `turn`, in links along their normal from P to N.
   const Vector& left(std::size_t turn) const { return turned_[turn]; }
+  /// b [Pa], of a cell in which nothing is capped.
+  double bulk_left(std::size_t turn) const { return bulk_[turn]; }
   /// visit(place in Mesh::cell_faces, face, number of the side) of each face of a cell that bears a force.
   template <class Visit>
   void visit_sides(Index cell, const Visit& visit) const {
@@ -47,7 +50,8 @@ class FiniteMemory {
 
  private:
   const FaceSkeleton& skeleton_;
-  std::vector<Vector> left_, turned_;  // by turn; empty if no cell relaxes
+  std::vector<Vector> left_, turned_;     // by turn; empty if no cell relaxes
+  std::vector<double> bulk_left_, bulk_;  // likewise
   CellField<Tensor> rotation_;
 };
 

@@ -87,6 +87,8 @@ class FiniteStates {
   Push side_push(std::size_t side) const;
   /// m of what is left of earlier gaps, over mu, and dm/dJ; capped in polyhedra (finite_memory.h).
   Push memory_push(Index cell, std::size_t turn) const;
+  /// Share of the stiffness along the normals that a cell's jumps keep.
+  double jump_share(Index cell) const { return jump_share_[cell]; }
   /// Factor of a on a side: more than 1 on bonded ones.
   double stiffer_at(std::size_t turn) const { return skeleton_.is_side(turn) ? stiffer(side_at(turn)) : 1.0; }
   /// a h [Pa].

@@ -14,6 +14,8 @@ namespace {
 
 const std::vector<PronyBranch> two{{.modulus = 0.7e6, .time = 0.3}, {.modulus = 0.2e6, .time = 2.0}};
 
+const std::vector<PronyBranch> bulk{{.modulus = 1.5e6, .time = 0.5}};
+
 // A path that stretches, shears and turns [-].
 Tensor gradient_at(double t) {
   Tensor H;
@@ -28,6 +30,30 @@ struct Exact {
   Tensor stress = Tensor::Zero();
   double energy = 0.0, heat = 0.0;
 };
+
+// The bulk branch likewise: v' = (ln J - v)/tau of v = ln J_v, W = K/2 (J_e - 1)^2.
+void add_bulk(int steps, Exact& sum) {
+  const auto [K, tau] = bulk[0];
+  const auto volume = [](double t) { return (Tensor::Identity() + gradient_at(t)).determinant(); };
+  const auto heat = [&, K = K, tau = tau](double t, double v) {
+    const double J_e = volume(t) / std::exp(v);
+    return K * J_e * (J_e - 1.0) * std::log(J_e) / tau;
+  };
+  const auto rate = [&, tau = tau](double t, double v) { return (std::log(volume(t)) - v) / tau; };
+  double v = 0.0;
+  const double dt = 1.0 / steps;
+  for (int k = 0; k < steps; ++k) {
+    const double t = k * dt, a = rate(t, v), b = rate(t + 0.5 * dt, v + 0.5 * dt * a),
+                 c = rate(t + 0.5 * dt, v + 0.5 * dt * b), d = rate(t + dt, v + dt * c);
+    const double next = v + dt / 6.0 * (a + 2.0 * b + 2.0 * c + d);
+    sum.heat += dt / 6.0 * (heat(t, v) + 4.0 * heat(t + 0.5 * dt, v + 0.5 * dt * b) + heat(t + dt, next));
+    v = next;
+  }
+  const Tensor F = Tensor::Identity() + gradient_at(1.0);
+  const double J_e = F.determinant() / std::exp(v);
+  sum.stress += K * J_e * (J_e - 1.0) * F.inverse().transpose();
+  sum.energy += 0.5 * K * (J_e - 1.0) * (J_e - 1.0);
+}
 
 // The branches at t = 1 [s] by their equations, dissipation as mu/(2 tau) J^(2/3) (A:A - (tr A)^2/3), A = C' Cv^-1.
 Exact exact(int steps) {
@@ -59,6 +85,7 @@ Exact exact(int steps) {
     sum.stress += branch.modulus * (F * Cv.inverse() - size * F.inverse().transpose());
     sum.energy += 0.5 * branch.modulus * ((F.transpose() * F * Cv.inverse()).trace() - 3.0 * size);
   }
+  add_bulk(steps, sum);
   return sum;
 }
 
@@ -82,7 +109,7 @@ Stepped stepped(const ViscousBranches& branches, int steps) {
 }
 
 TEST(ViscousBranches, AreOfSecondOrderAboutTheirEquation) {
-  const ViscousBranches branches(two, VolumetricForm::quadratic, 0.0);
+  const ViscousBranches branches(two, VolumetricForm::quadratic, 0.0, bulk);
   const Exact due = exact(4000);
   std::vector<double> of_stress, of_energy, of_heat;
   for (const int steps : {20, 40, 80}) {
@@ -103,7 +130,7 @@ TEST(ViscousBranches, AreOfSecondOrderAboutTheirEquation) {
 
 // What is strained at once makes none, and makes all that it has stored once it is held.
 TEST(ViscousBranches, MakeHeatByRelaxingAlone) {
-  const ViscousBranches branches(two, VolumetricForm::quadratic, 2.5);
+  const ViscousBranches branches(two, VolumetricForm::quadratic, 2.5, bulk);
   const std::vector<double> virgin(branches.size(), 0.0);
   for (const double part : {1e-3, 0.1, 1.0, 2.0}) {
     const Tensor H = gradient_at(part);
@@ -120,7 +147,7 @@ TEST(ViscousBranches, MakeHeatByRelaxingAlone) {
 
 TEST(ViscousBranches, HaveTheTangentOfTheirStep) {
   for (const double bulk_ratio : {0.0, 2.5}) {
-    const ViscousBranches branches(two, VolumetricForm::logarithmic, bulk_ratio);
+    const ViscousBranches branches(two, VolumetricForm::logarithmic, bulk_ratio, bulk);
     const std::vector<double> history = stepped(branches, 3).history;
     const PointBefore before{gradient_at(1.0), 0.4, history};
     const Tensor H = gradient_at(1.3);
@@ -136,9 +163,9 @@ TEST(ViscousBranches, HaveTheTangentOfTheirStep) {
 }
 
 TEST(ViscousBranches, AreAPronySeriesAtSmallStrain) {
-  const ViscousBranches branches(two, VolumetricForm::quadratic, 0.0);
+  const ViscousBranches branches(two, VolumetricForm::quadratic, 0.0, bulk);
   const IsotropicElasticity relaxed = from_young_poisson(1e6, 0.3);
-  const auto prony = make_prony({.relaxed = relaxed, .shear = two});
+  const auto prony = make_prony({.relaxed = relaxed, .shear = two, .bulk = bulk});
   constexpr double small = 1e-6;
   std::vector<double> of_branches(branches.size(), 0.0), of_prony(prony->history_size(), 0.0);
   Tensor from = Tensor::Zero();
@@ -186,7 +213,7 @@ TEST(ViscousBranches, AreRubberAtOnceAndNothingAtLast) {
 }
 
 TEST(ViscousBranches, StayFiniteAndSmoothWhereACellTurnsInsideOut) {
-  const ViscousBranches branches(two, VolumetricForm::logarithmic, 2.5);
+  const ViscousBranches branches(two, VolumetricForm::logarithmic, 2.5, bulk);
   const std::vector<double> history = stepped(branches, 3).history;
   const PointBefore before{gradient_at(1.0), 0.3, history};
   for (double squeeze = 0.5; squeeze < 2.2; squeeze += 0.05) {

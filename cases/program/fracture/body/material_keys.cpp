@@ -184,7 +184,7 @@ const KeyTable& material_keys() {
              "Slope of the yield stress by the equivalent plastic strain.", j2},
             {"kinematic_hardening", quantity(dimension::stress, range::not_negative), "0",
              "Slope of the back stress by the equivalent plastic strain.", j2}},
-           prony_branch_keys(viscous, "prony"),
+           prony_branch_keys(viscous, viscous),
            {temperature_shift_row(viscous)},
            {{"driven_by", choice("driving energy", {"equilibrium", "stored"}), "\"equilibrium\"",
              "Energy that drives damage: of the relaxed elasticity, or all that is stored, also in the branches.",

@@ -60,6 +60,7 @@ constexpr MaterialLaw prony{
 HyperelasticParameters read_volumetric(const ConfigTable& material) {
   HyperelasticParameters p{.elasticity = read_elasticity(material),
                            .branches = read_shear_branches(material),
+                           .bulk_branches = read_bulk_branches(material),
                            .drive = read_drive(material),
                            .shift = read_temperature_shift(material)};
   if (material.choice("volumetric", "quadratic") == "logarithmic") p.volumetric = VolumetricForm::logarithmic;

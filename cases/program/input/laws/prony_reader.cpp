@@ -37,10 +37,14 @@ std::vector<PronyBranch> read_shear_branches(const ConfigTable& material) {
   return read_branches(material, "shear_branches");
 }
 
+std::vector<PronyBranch> read_bulk_branches(const ConfigTable& material) {
+  return read_branches(material, "bulk_branches");
+}
+
 PronyLaw read_prony_series(const ConfigTable& material) {
   return {.relaxed = from_young_poisson(material.quantity("young_modulus"), material.number("poisson_ratio")),
           .shear = read_shear_branches(material),
-          .bulk = read_branches(material, "bulk_branches")};
+          .bulk = read_bulk_branches(material)};
 }
 
 std::string to_toml(const PronyLaw& law, int digits) {

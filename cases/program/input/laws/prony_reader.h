@@ -12,8 +12,9 @@ namespace pfdm {
 /// Of the keys young_modulus, poisson_ratio, shear_branches and bulk_branches, which were checked.
 PronyLaw read_prony_series(const ConfigTable& material);
 
-/// Of the key shear_branches alone; none without it.
+/// Of the key shear_branches or bulk_branches alone; none without it.
 std::vector<PronyBranch> read_shear_branches(const ConfigTable& material);
+std::vector<PronyBranch> read_bulk_branches(const ConfigTable& material);
 
 /// These keys, a line each, with `digits` significant digits.
 std::string to_toml(const PronyLaw& law, int digits = 15);
