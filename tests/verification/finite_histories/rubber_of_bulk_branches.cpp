@@ -116,7 +116,7 @@ TEST(RubberOfBulkBranches, PadsRelaxToTheElasticOnes) {
       report_row(fmt::format("pad of {} {}", pad.mesh.n_cells(), pad.cells),
                  {{"from the elastic one", difference}, {"at once, over it", held[1].norm() / due[1].norm()}});
       EXPECT_LT(difference, 1e-4);
-      EXPECT_GT(held[1].norm(), 1.5 * due[1].norm());
+      EXPECT_GT(held[1].norm(), 1.4 * due[1].norm());
     }
 }
 
@@ -148,11 +148,12 @@ TEST(RubberOfBulkBranches, AreRefusedWhereCellsWouldNeedAPressure) {
   EXPECT_NE(complaint([] { rubber(shear, {{.modulus = 4e6, .time = 1.0}}); }).find("bulk_branches"), std::string::npos);
   EXPECT_NE(complaint([] { rubber(shear, {{.modulus = 1e6, .time = -1.0}}); }), "");
   const Mesh mesh = mapped_box({1, 1, 1}, [](const Vector& s) -> Vector { return s; });
-  FractureModel model = finite_body(mesh, rubber({}, bulk),
-                                    {displacement_on("xmin", [](const Vector&) -> Vector { return Vector::Zero(); }),
-                                     plane_stress_on("zmin"), plane_stress_on("zmax")});
-  EXPECT_NE(complaint([&] { FractureRun(mesh, model, {}, in_steps(1.0, 0.1, 1.0)); }).find("plane stress"),
-            std::string::npos);
+  const auto held = [](const Vector&) -> Vector { return Vector::Zero(); };
+  FractureModel model = finite_body(
+      mesh, rubber({}, bulk),
+      {displacement_on("xmin", held), displacement_on("xmax", held), plane_stress_on("zmin"), plane_stress_on("zmax")});
+  const std::string said = complaint([&] { FractureRun(mesh, model, {}, in_steps(1.0, 0.1, 1.0)); });
+  EXPECT_NE(said.find("plane stress"), std::string::npos) << said;
 }
 
 }  // namespace
