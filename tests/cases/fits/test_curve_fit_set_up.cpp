@@ -139,6 +139,13 @@ void expect_compliance_like_that_of_the_bar(const BarInASetUp& bar) {
     bar.record(seed);
     const auto fit =
         bar.fit(bar_in_a_set_up("30 GPa", "0.05 um/N", fitted_modulus + fitted_compliance + fitted_offset));
+    if (fit["verdict"] == "sound") {  // by the rounding of another machine: it says then how little it knows
+      EXPECT_EQ(n_held(fit), 5) << fit["parameters"];
+      const auto& modulus = parameter(fit, modulus_key);
+      EXPECT_GT(modulus["upper"].get<double>() - modulus["lower"].get<double>(), 16e9);
+      EXPECT_NE(fit["warnings"].dump().find("strongly correlated"), std::string::npos) << fit["warnings"];
+      continue;
+    }
     EXPECT_EQ(fit["verdict"], "questionable");
     const std::string reasons = fit["reasons"].dump();
     const bool named = reasons.find(
