@@ -19,7 +19,8 @@ constexpr std::array<int, 2> stop_signals{SIGINT, SIGTERM};
 
 // A handler may touch lock-free atomics only; the text does not change while it is installed.
 std::atomic<int> asked{0}, n_looking{0};
-static_assert(std::atomic<int>::is_always_lock_free);
+std::atomic<pid_t> parent_to_end_with{0};
+static_assert(std::atomic<int>::is_always_lock_free && std::atomic<pid_t>::is_always_lock_free);
 std::string said_at_once;
 std::array<struct sigaction, stop_signals.size()> before{};
 bool installed = false;
@@ -35,11 +36,16 @@ void say_from_handler() {
   }
 }
 
-extern "C" void on_stop_signal(int signal) {
+// A parent of several threads dies once for each of them (prctl(2)).
+bool dies_again(int signal, const siginfo_t& from) {
+  return signal == SIGTERM && from.si_pid != 0 && from.si_pid == parent_to_end_with.load();
+}
+
+extern "C" void on_stop_signal(int signal, siginfo_t* from, void*) {
   const int error = errno;
   int none = 0;
   const bool first = asked.compare_exchange_strong(none, signal);
-  if (!first || n_looking.load() == 0) {
+  if ((!first && !dies_again(signal, *from)) || (first && n_looking.load() == 0)) {
     say_from_handler();
     end_by_signal(signal);
   }
@@ -65,8 +71,8 @@ StopSignals::StopSignals(std::string at_once) {
     ::sigaction(stop_signals[i], nullptr, &before[i]);
     if (before[i].sa_handler == SIG_IGN) continue;  // as under nohup
     struct sigaction action {};
-    action.sa_handler = on_stop_signal;
-    action.sa_flags = SA_RESTART;
+    action.sa_sigaction = on_stop_signal;
+    action.sa_flags = SA_RESTART | SA_SIGINFO;
     ::sigaction(stop_signals[i], &action, nullptr);
   }
   installed = true;
@@ -88,6 +94,7 @@ void end_with_parent() {
   const auto parent = number == nullptr ? std::nullopt : parse_int(number);
   ::unsetenv(name);
   if (!parent || ::getppid() != *parent) return;  // started by something between them, which may be left alone
+  parent_to_end_with = static_cast<pid_t>(*parent);
   ::prctl(PR_SET_PDEATHSIG, SIGTERM);
   if (::getppid() != *parent) end_by_signal(SIGTERM);  // it ended before that was asked for
 }
