@@ -63,12 +63,16 @@ TEST(EndOfRun, SaysThatAllHolds) {
 
 // What acts on a free patch is rounding, and nothing of it rises.
 TEST(EndOfRun, OfAFreePatchIsItsDisplacement) {
-  const TemporaryCase glued(
-      replaced(glued_blocks(linear_glue), "patch = \"xmax\", component", "patch = \"ymax\", component"));
-  const Outcome outcome = run({"run", glued.path().string()});
-  ASSERT_EQ(outcome.status, 0) << outcome.err;
-  EXPECT_THAT(outcome.out, HasSubstr("Displacement of \"ymax\" along x at the end 0.06 mm; it is free."));
-  EXPECT_THAT(outcome.out, testing::Not(HasSubstr("Greatest force")));
+  const std::string unnamed =
+      replaced(glued_blocks(linear_glue), "patch = \"xmax\", component", "patch = \"ymax\", component");
+  const std::string named = "\n[[boundary]]\npatch = \"ymax\"\ndisplacement = [\"free\", \"free\", \"free\"]\n";
+  for (const std::string& text : {unnamed, unnamed + named}) {
+    const TemporaryCase glued(text);
+    const Outcome outcome = run({"run", glued.path().string()});
+    ASSERT_EQ(outcome.status, 0) << outcome.err;
+    EXPECT_THAT(outcome.out, HasSubstr("Displacement of \"ymax\" along x at the end 0.06 mm; it is free."));
+    EXPECT_THAT(outcome.out, testing::Not(HasSubstr("Greatest force")));
+  }
 }
 
 // The runs of a sweep record no columns, and know the first debonding all the same.

@@ -94,7 +94,8 @@ void read_components(const ConfigTable& table, const Materials& materials, Bound
   Components components;
   if (displacement) read_displacements(*displacement, settings, components);
   if (traction) read_tractions(*traction, settings, components);
-  settings.condition.value = combined(components);
+  if (std::ranges::any_of(components, [](const ScalarField& component) { return bool(component); }))
+    settings.condition.value = combined(components);
   if (!pressure) return;
   if (std::ranges::all_of(settings.condition.displacement_prescribed, std::identity{}))
     throw pressure->error("all components of the displacement are prescribed, which leaves none for a pressure");
