@@ -42,6 +42,10 @@ HomogenizationCase read_whole_homogenization_case(const CaseFile& file, MeshOf m
 /// mesh does not have, and parameters that are out of range in a cell.
 LinearComposite composite_on(const HomogenizationCase& homogenization, const Mesh& mesh);
 
+/// On a nearly incompressible material beside one whose elasticity depends on the direction: no cell has a pressure
+/// then.
+std::optional<std::string> warning_of_volume(const HomogenizationCase& homogenization, const Mesh& mesh);
+
 /// The materials with their fractions of the box; nothing where an elasticity varies from place to place, or where
 /// there are voids.
 std::vector<Phase> phases_of(const HomogenizationCase& homogenization, const Mesh& mesh, const Homogenized& result);

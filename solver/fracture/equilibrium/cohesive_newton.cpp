@@ -15,6 +15,7 @@ constexpr double falls = 0.7;                 // of the residual by a step of Ne
 constexpr double linear_reduction = 0.02;     // of the residual of the linearised equation
 constexpr double convex_reduction = 0.1;      // likewise, without what softens
 constexpr Index most_newton_iterations = 80;  // of FGMRES: where the tangent is not definite more do not help
+constexpr double lost = 1e6;                  // residual from which nothing leads back, over that at the start
 constexpr double bearable_rest = 0.3;         // of the residual, after so many
 
 /// Whether the next step is by tangent or by its convex part. Convex steps lead from below to where the faces come to
@@ -98,6 +99,7 @@ class FacesNewton {
       note(step, k == 0);
       if (whole_.converged && has_rate_) return without_last_step();  // the overstresses belong to it
       if (whole_.converged || !std::isfinite(step.residual)) return whole_;
+      if (residual > lost * std::max(1.0, whole_.initial_residual)) return without_hope();
       const bool solved = step.residual < bearable_rest * residual;
       if (residual <= tolerance_.good_enough && !(solved && residual < falls * last)) return without_last_step();
       // After the first solve, too: what is left of it takes stiff faces far beyond their strength.
@@ -155,6 +157,11 @@ class FacesNewton {
       target_ = target_of(tolerance_, step.initial_residual);
     }
     whole_.converged = step.initial_residual <= target_;
+  }
+
+  Equilibrium without_hope() {
+    whole_.residual = std::numeric_limits<double>::infinity();
+    return whole_;
   }
 
   Equilibrium without_last_step() {

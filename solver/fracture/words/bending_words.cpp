@@ -38,21 +38,39 @@ std::string words_on_thin(const BendingError& worst) {
       length_words(stack.thinnest_thickness, 3), 100.0 * bearable_bending, by_cubics ? "two" : "three");
 }
 
+// Why nothing is known of axes that turn across the layers, and what helps.
+std::string_view words_on_unknown(AxesTurn::Unknown why) {
+  using enum AxesTurn::Unknown;
+  if (why == lone_plies)
+    return "not known (plies of one cell across with inclined axes: 9 % too low to 100 times too high, as measured). "
+           "For 15 %: two cells across each ply, for 3 %: three ([mesh])";
+  if (why == goes_on)
+    return "not known (axes that turn across layers and go on in another region: 23 to 56 % too low, as measured). For "
+           "less: one region, or more layers ([mesh])";
+  return "not known (axes that turn across layers, in a body with eigenstrains or temperatures: 93 % too low to three "
+         "times too high with four layers, as measured). For a quarter of it: twice the layers ([mesh])";
+}
+
 // On axes that turn across the layers.
 std::string words_on_turn(const BendingError& worst) {
   const BendingLayers& at = worst.layers;
-  if (at.turn.has_lone_plies)
-    return "not known (plies of one cell across with inclined axes: 9 % too low to 100 times too high, as measured). "
-           "For 15 %: two cells across each ply, for 3 %: three ([mesh])";
+  if (at.turn.unknown != AxesTurn::Unknown::no) return std::string(words_on_unknown(at.turn.unknown));
   const double error = 100.0 * worst.error, bearable = 100.0 * bearable_bending;
   if (worst.error == at.turn.error_of_plies())
     return fmt::format(
         "up to {:.0f} % too high (plies of two cells across with inclined axes). For {:.0f} %: three ([mesh])", error,
         bearable);
+  if (worst.error == at.turn.error_of_uneven())
+    return fmt::format(
+        "about {:.0f} % too high or too low (uneven layers of a material with inclined axes; within a factor of "
+        "three). For less: even layers ([mesh])",
+        error);
+  constexpr double most_of_few = 3.0;
   const double by_layers = at.turn.error();
   const std::string which =
       worst.error == by_layers
-          ? fmt::format("{:.0f} layers", std::ceil(at.n * std::sqrt(by_layers / bearable_bending)))
+          ? fmt::format("{:.0f} layers",
+                        std::max(most_of_few + 1.0, std::ceil(at.n * std::sqrt(by_layers / bearable_bending))))
           : fmt::format("cells up to {} long",
                         length_words(at.thickness * AxesTurn::length_for(bearable_bending, at.shear), 2));
   return fmt::format(

@@ -7,11 +7,11 @@
 
 namespace pfdm {
 
-/// A layer: the material that it is of, and R: minus the shear angle without shear stress that a strain along the
-/// layers makes, over that strain [-].
+/// A layer: the material that it is of, its thickness [m], and R: minus the shear angle without shear stress that a
+/// strain along the layers makes, over that strain [-].
 struct TurnedLayer {
   Index zone = -1;
-  double R = 0.0;
+  double thickness = 0.0, R = 0.0;
 };
 
 /// Zero where axes do not turn.
@@ -20,13 +20,17 @@ struct AxesTurn {
   double range = 0.0;      ///< largest difference of R of any two, of a material or on both sides of the end of one
   double most = 0.0;       ///< largest R without regard to sign
   double plies = 0.0;      ///< largest difference of R between materials side by side, one of them of two layers
+  double uneven = 0.0;     ///< sum of the cubes of the layers' shares of the thickness, less that of even layers
   bool is_of_few = false;  ///< three layers or fewer
-  bool has_lone_plies = false;  ///< a material among others is of one layer and has an R
+  /// Why the error is not known: a material among others is of one layer and has an R; axes turn and go on in another
+  /// material; axes turn and there are eigenstrains, with which gradients know the axes of each cell alone.
+  enum class Unknown { no, lone_plies, goes_on, eigenstrains } unknown = Unknown::no;
 
   /// Error of the bending stiffness (bending.md). 0.08 (step/max(1, most))^2, of three layers or fewer 0.15, either
-  /// way; of plies 0.13 plies/(2 most), too much; 3 of lone ones, of which it is not known.
+  /// way; of plies 0.13 plies/(2 most), too much; of uneven layers uneven (0.6 + 8 range); 3 where it is not known.
   double error() const;
   double error_of_plies() const;
+  double error_of_uneven() const;
   /// Likewise of cells of this length over the thickness of the body, `shear` as of BendingLayers: length/thickness
   /// max(1, shear/2.5)^(1/2) - 0.65, less where the range is below a quarter.
   double error_of_long(double length, double shear) const;
@@ -35,6 +39,6 @@ struct AxesTurn {
 };
 
 /// Of layers from one surface to the opposite one.
-AxesTurn axes_turn(std::span<const TurnedLayer> layers);
+AxesTurn axes_turn(std::span<const TurnedLayer> layers, bool has_eigenstrain);
 
 }  // namespace pfdm

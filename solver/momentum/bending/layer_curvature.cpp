@@ -221,9 +221,11 @@ void LayerCurvature::weigh(const CellField<double>& counts) {
     for (const Index other : at.others)
       if (other >= 0) at.weight = std::min(at.weight, counts[other]);
   });
-  parallel_for(count_of(turns_), [&](Index i) {
-    Turn& at = turns_[i];
-    at.weight = std::min(counts[at.cell], counts[at.other]);
+  parallel_for(count_of(sides_), [&](Index i) {  // of one side all alike: else their sum is no difference
+    const std::span<Turn> turns(turns_.data() + sides_[i].first_turn, turns_.data() + sides_[i].end_turn);
+    double weight = 1.0;
+    for (const Turn& at : turns) weight = std::min({weight, counts[at.cell], counts[at.other]});
+    for (Turn& at : turns) at.weight = weight;
   });
 }
 

@@ -73,10 +73,10 @@ void LayerLines::direct(Stack& of, const Vector& along, const Vector& across) co
     if (C == nullptr) continue;
     const DirectedStrip strip(*C, along, across);
     layer.modulus = strip.modulus;
-    turned.push_back({layer.zone, strip.shear_by_strain});
+    turned.push_back({layer.zone, layer.thickness, strip.shear_by_strain});
   }
   of.bends = layer_stack(of.layers, of.is_mirrored);
-  of.turn = axes_turn(turned);
+  of.turn = axes_turn(turned, static_cast<bool>(unknowns_.loads.eigenstrain));
   of.along = along;
 }
 

@@ -77,6 +77,17 @@ TEST(HomogenizationCase, TakesCrystalsAndTheirAxes) {
   EXPECT_THAT(run({"check", both.path().string()}).err, HasSubstr("the material has its elasticity already"));
 }
 
+// No cell of a box with crystals has a pressure.
+TEST(HomogenizationCase, TellsOfRubberBesideCrystals) {
+  const std::string crystal = "elasticity = { C11 = \"168.4 GPa\", C12 = \"121.4 GPa\", C44 = \"75.4 GPa\" }\n";
+  const std::string beside = replaced(laminate(), "young_modulus = \"200 GPa\"\npoisson_ratio = 0.3\n", crystal);
+  const TemporaryCase soft(beside), rubber(replaced(beside, "poisson_ratio = 0.4", "poisson_ratio = 0.499"));
+  EXPECT_THAT(run({"check", soft.path().string()}).out, testing::Not(HasSubstr("incompressible")));
+  const Outcome outcome = run({"run", rubber.path().string()});
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_THAT(outcome.out + outcome.err, HasSubstr("\"soft\" is nearly incompressible (nu = 0.499) beside elasticity"));
+}
+
 double constrained_modulus(double E, double nu) { return E * (1.0 - nu) / ((1.0 + nu) * (1.0 - 2.0 * nu)); }
 
 TEST(HomogenizationCase, LaminateHasItsExactStiffnessDensityAndLoss) {
