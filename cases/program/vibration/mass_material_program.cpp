@@ -219,11 +219,12 @@ void run_case(const MassMaterialProgram& program, Session& session) {
             session);
 }
 
-/// What the run of this case did, in sentences; none without one.
+/// What the run of this case did, in sentences; none without one, as where only records of tests were analysed since
+/// the case was changed.
 std::vector<std::string> headline_of(const MassMaterialProgram& program, const fs::path& results) {
   const fs::path file = results / summary_file;
-  const auto summary = find_of_case(file, program.hash, [](const fs::path& path) { return *read_summary(path); });
-  if (!summary) return {};
+  const auto summary = fs::exists(file) ? read_summary(file) : std::nullopt;
+  if (!summary || summary->case_hash != program.hash) return {};
   std::vector<std::string> sentences{fmt::format("Mass and sample resonate at {}, where they are linear.",
                                                  shown(summary->number("linear_resonance_Hz"), "Hz"))};
   constexpr std::size_t most = 4;
