@@ -69,6 +69,12 @@ bool CohesiveFaces::has_rate_laws() const {
   return std::ranges::any_of(model_.interfaces, [](const CohesiveSurface& surface) { return surface.law.rate.any(); });
 }
 
+bool CohesiveFaces::are_sound(const std::vector<InterfaceHistory>& histories) const {
+  const auto can_rub = [](const CohesiveSurface& surface) { return surface.law.friction > 0.0; };
+  return std::ranges::none_of(model_.interfaces, can_rub) &&
+         std::ranges::all_of(histories, [](const InterfaceHistory& of) { return of.dissipated == 0.0; });
+}
+
 double CohesiveFaces::bond(Index face) const {
   const Vector n = mesh_.face_area[face].normalized();
   const auto softness = [&](Index c) {

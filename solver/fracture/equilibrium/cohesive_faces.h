@@ -33,6 +33,8 @@ class CohesiveFaces {
 
   bool any() const { return !faces_.empty(); }
   bool has_rate_laws() const;
+  /// Whether no face has dissipated anything yet, and none can rub.
+  bool are_sound(const std::vector<InterfaceHistory>& histories) const;
   /// Forces of the branches of each face while it is whole [N]; empty without branches.
   std::vector<Vector> branch_forces(const std::vector<InterfaceHistory>& histories) const;
   /// Begins a load step, which takes `duration` [s].

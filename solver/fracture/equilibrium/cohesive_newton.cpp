@@ -87,7 +87,8 @@ class FacesNewton {
         u_(u),
         after_(after),
         way_out_(u),
-        has_rate_(faces.has_rate_laws()) {}
+        has_rate_(faces.has_rate_laws()),
+        is_sound_(faces.are_sound(before)) {}
 
   Equilibrium solve(const BalanceWatch& watch) {
     momentum_.set_held_forces(faces_.branch_forces(before_));
@@ -102,8 +103,8 @@ class FacesNewton {
       if (residual > lost * std::max(1.0, whole_.initial_residual)) return without_hope();
       const bool solved = step.residual < bearable_rest * residual;
       if (residual <= tolerance_.good_enough && !(solved && residual < falls * last)) return without_last_step();
-      // After the first solve, too: what is left of it takes stiff faces far beyond their strength.
-      if (!has_rate_ && (k == 0 || way_out_.is_marching() || residual > falls * last)) settle();
+      // After the first solve of sound faces, too: what is left of it takes stiff ones far beyond their strength.
+      if (!has_rate_ && ((k == 0 && is_sound_) || way_out_.is_marching() || residual > falls * last)) settle();
       last = residual;
       way_ = way_out_.next(residual, solved, u_);
       if (cells_) cells_();
@@ -180,6 +181,7 @@ class FacesNewton {
   std::vector<InterfaceHistory>& after_;
   WayOut way_out_;
   bool has_rate_;             // steep where faces begin to move
+  bool is_sound_;             // before the step
   std::vector<Vector> from_;  // before the step
   CohesiveFaces::Way way_ = CohesiveFaces::Way::tangent;
   double target_ = 0.0;  // of the residual
