@@ -121,6 +121,12 @@ MandelMatrix turned(const MandelMatrix& C, const Tensor& axes) {
   return 0.5 * (whole + whole.transpose());
 }
 
+Eigen::Matrix<double, 6, 3> strains_across(const Vector& n) {
+  Eigen::Matrix<double, 6, 3> strains;
+  for (Index k = 0; k < 3; ++k) strains.col(k) = to_mandel(symmetric_part(Vector::Unit(k) * n.transpose()));
+  return strains;
+}
+
 bool is_symmetric_about(const MandelMatrix& C, const Vector& n) {
   constexpr double close = 1e-9;
   const Vector a = n.unitOrthogonal(), b = n.cross(a);

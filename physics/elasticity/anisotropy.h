@@ -40,6 +40,10 @@ struct AnisotropicElasticity {
 /// Anisotropic elasticity by a stiffness C [Pa] with a positive energy.
 AnisotropicElasticity anisotropic_elasticity(const MandelMatrix& C);
 
+/// Strains (Mandel) of the unit vectors times n: columns sym(e_k (x) n), so that their transpose times a stress is its
+/// traction on n.
+Eigen::Matrix<double, 6, 3> strains_across(const Vector& n);
+
 /// Whether strains within the plane normal to n, and across it, make no shear stress across it.
 bool is_symmetric_about(const MandelMatrix& C, const Vector& n);
 

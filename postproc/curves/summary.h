@@ -22,13 +22,13 @@ struct Headlines {
   double peak_force = none;            ///< largest in magnitude, of the force along the displacement [N]
   double displacement_at_peak = none;  ///< [m]
   double load_at_peak = none;          ///< load parameter [-]
-  /// The peak lies between the largest force and this one [N]: what the slope before it reaches in the step after it, if
-  /// that step lost a tenth of the force or more; else the same.
+  /// The peak lies between the largest force and this one [N]: what the slope before it reaches in the step after it,
+  /// if that step lost a tenth of the force or more; else the same.
   double peak_force_at_most = none;
-  double initial_stiffness = none;     ///< secant from the first row to the first other displacement [N/m]
-  double final_force = none;           ///< [N]
-  double final_displacement = none;    ///< [m]
-  double final_load = none;            ///< load parameter [-]
+  double initial_stiffness = none;   ///< secant from the first row to the first other displacement [N/m]
+  double final_force = none;         ///< [N]
+  double final_displacement = none;  ///< [m]
+  double final_load = none;          ///< load parameter [-]
   EnergyAccount energy{none, none, none, none, none};  ///< at the end [J]
   double max_damage = none;                            ///< at the end [-]
   double damaged_volume = none;                        ///< at the end [m^3]

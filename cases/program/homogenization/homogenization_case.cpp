@@ -80,16 +80,15 @@ LinearComposite composite_on(const HomogenizationCase& homogenization, const Mes
   return composite;
 }
 
-std::optional<std::string> warning_of_volume(const HomogenizationCase& homogenization, const Mesh& mesh) {
-  FractureModel model;
-  place_materials(homogenization.materials, mesh, model);
-  if (!model.is_anisotropic()) return std::nullopt;
+std::optional<std::string> warning_of_volume(const LinearComposite& composite, const Mesh& mesh) {
+  if (!composite.stiffness) return std::nullopt;
   Index worst = -1;
   double most = 0.0;
   for (Index c = 0; c < mesh.n_cells(); ++c) {
-    const RegionModel& region = model.in_cell(mesh, c);
-    const double nu = region.elasticity.poisson_ratio();
-    if (!region.stiffness && is_nearly_incompressible(region.elasticity) && nu > most) most = nu, worst = c;
+    const IsotropicElasticity& elasticity =
+        composite.cells.size() > 0 ? composite.cells[c] : composite.elasticity[mesh.region[c]];
+    if (composite.stiffness(mesh, c) != nullptr || !is_nearly_incompressible(elasticity)) continue;
+    if (const double nu = elasticity.poisson_ratio(); nu > most) most = nu, worst = c;
   }
   if (worst < 0) return std::nullopt;
   return fmt::format(

@@ -44,7 +44,7 @@ LinearComposite composite_on(const HomogenizationCase& homogenization, const Mes
 
 /// On a nearly incompressible material beside one whose elasticity depends on the direction: no cell has a pressure
 /// then.
-std::optional<std::string> warning_of_volume(const HomogenizationCase& homogenization, const Mesh& mesh);
+std::optional<std::string> warning_of_volume(const LinearComposite& composite, const Mesh& mesh);
 
 /// The materials with their fractions of the box; nothing where an elasticity varies from place to place, or where
 /// there are voids.

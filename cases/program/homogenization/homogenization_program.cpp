@@ -47,11 +47,12 @@ void check(const HomogenizationProgram& program, Session& session) {
   const HomogenizationCase& homogenization = program.homogenization;
   Log& log = session.log;
   const Mesh mesh = make_mesh(program, log);
-  const Index unknowns = homogenization_unknowns(mesh, composite_on(homogenization, mesh), homogenization.settings);
+  const LinearComposite composite = composite_on(homogenization, mesh);
+  const Index unknowns = homogenization_unknowns(mesh, composite, homogenization.settings);
   log.say(fmt::format("{}: {}", program.name, homogenization.title));
   log.say(fmt::format("cells {}, unknowns {}; six load cases, {}", mesh.n_cells(), unknowns,
                       homogenization.settings.loading->name));
-  if (const auto warning = warning_of_volume(homogenization, mesh)) log.warn(*warning);
+  if (const auto warning = warning_of_volume(composite, mesh)) log.warn(*warning);
   log.say(fmt::format("results go to {}", session.results.string()));
   log.say("the input is valid");
 }
@@ -113,7 +114,7 @@ void run_case(const HomogenizationProgram& program, Session& session) {
   const Mesh& mesh = find_mesh(program, session.meshes != nullptr ? *session.meshes : own_mesh, log);
   const LinearComposite composite = composite_on(homogenization, mesh);
   homogenization_unknowns(mesh, composite, homogenization.settings);  // what is wrong with the body is said before
-  if (const auto warning = warning_of_volume(homogenization, mesh)) log.warn(*warning);
+  if (const auto warning = warning_of_volume(composite, mesh)) log.warn(*warning);
   const auto compute = [&](const std::filesystem::path& folder, const Stopwatch& watch) -> std::string {
     const auto solved = [&](std::size_t k, const LoadCase& one) {
       log.step(

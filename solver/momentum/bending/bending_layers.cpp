@@ -35,6 +35,7 @@ void over_layers(const Mesh& mesh, const Unknowns& unknowns, const See& see) {
         const double n = layers.times() * layers.n, thickness = layers.times() * layers.length;
         if (across == along || !layers.has_layers()) continue;
         if (length.times() * length.length < BendingLayers::least_slenderness * thickness) continue;
+        const LayerLines::Stack& stack = lines.stack(layers, c, across, along);
         see(BendingCell{.cell = c,
                         .across = lines.faces(c, across),
                         .along = lines.faces(c, along),
@@ -43,9 +44,9 @@ void over_layers(const Mesh& mesh, const Unknowns& unknowns, const See& see) {
             BendingLayers{.n = n,
                           .thickness = thickness,
                           .length = lines.length(c, along),
-                          .stack = lines.stack(layers, c, across, along).bends,
+                          .stack = stack.bends,
                           .shear = lines.shear(c, across, along),
-                          .turn = lines.stack(layers, c, across, along).turn},
+                          .turn = stack.turn},
             unknowns.sound[unknowns.zone[c]].poisson_ratio());
       }
 }

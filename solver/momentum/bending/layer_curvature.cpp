@@ -107,10 +107,11 @@ class LayerCurvature::Maker {
     append(side, cell, by, factor, n, n);
     for (std::size_t k = 0; k < by.others.size(); ++k) add_turn(side, cell, by.others[k], factor * by.parts[k], n);
   }
-  void add_turn(std::size_t side, Index cell, Index other, double part, const Vector& n) {
+  void add_turn(std::size_t side, Index cell, Index other, double part, const Vector& n, bool cuts = false) {
     if (other < 0 || !stiffness_.turns(cell, other)) return;
-    made_.turns_.push_back(
-        {.side = side, .cell = cell, .other = other, .slope = part * stiffness_.slope_along(cell, other, n), .n = n});
+    const TurnedStiffness::Rows slope =
+        cuts ? stiffness_.slope_cutting(cell, other, n) : stiffness_.slope_along(cell, other, n);
+    made_.turns_.push_back({.side = side, .cell = cell, .other = other, .slope = part * slope, .n = n});
   }
 
   // By which lines give the derivative across at a cell with its second derivative: d^2/12, less a twenty-fourth of the
@@ -138,12 +139,7 @@ class LayerCurvature::Maker {
     append(side, in.cell, here, of_cell, line, normal / normal.dot(line));
     const Vector n = mesh_.face_area[face].normalized();
     for (std::size_t k = 0; k < here.others.size(); ++k)
-      if (const Index other = here.others[k]; other >= 0 && stiffness_.turns(in.cell, other))
-        made_.turns_.push_back({.side = side,
-                                .cell = in.cell,
-                                .other = other,
-                                .slope = of_cell * here.parts[k] * stiffness_.slope_cutting(in.cell, other, n),
-                                .n = n});
+      add_turn(side, in.cell, here.others[k], of_cell * here.parts[k], n, true);
   }
 
   // What the linear extrapolation lacks.

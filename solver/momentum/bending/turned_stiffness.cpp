@@ -1,18 +1,12 @@
 #include "solver/momentum/bending/turned_stiffness.h"
 
+#include "physics/elasticity/anisotropy.h"
 #include "physics/elasticity/plane_stress.h"
 
 namespace pfdm {
 namespace {
 
 using Rows = TurnedStiffness::Rows;
-
-// Strains of v (x) n.
-Eigen::Matrix<double, 6, 3> strains_across(const Vector& n) {
-  Eigen::Matrix<double, 6, 3> strains;
-  for (Index k = 0; k < 3; ++k) strains.col(k) = to_mandel(symmetric_part(Vector::Unit(k) * n.transpose()));
-  return strains;
-}
 
 // A^-1 n.D
 Rows slope_of(const MandelMatrix& C, const MandelMatrix& D, const Vector& n) {

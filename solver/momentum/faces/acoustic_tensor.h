@@ -1,14 +1,13 @@
 #pragma once
 // Normal stiffness of a material as the faces of cells see it.
 
-#include "physics/elasticity/mandel.h"
+#include "physics/elasticity/anisotropy.h"
 
 namespace pfdm {
 
 /// n.C.n [Pa]: what C makes of v (x) n, as a traction on n.
 inline Tensor acoustic_tensor(const MandelMatrix& C, const Vector& n) {
-  Eigen::Matrix<double, 6, 3> strain;
-  for (Index k = 0; k < 3; ++k) strain.col(k) = to_mandel(symmetric_part(Vector::Unit(k) * n.transpose()));
+  const Eigen::Matrix<double, 6, 3> strain = strains_across(n);
   return strain.transpose() * C * strain;
 }
 

@@ -1,5 +1,6 @@
 // Agreement of the two sides of each face (law_tractions.h).
 
+#include "physics/elasticity/anisotropy.h"
 #include "physics/elasticity/plane_stress.h"
 #include "solver/momentum/small_strain/law_tractions.h"
 #include "solver/parallel.h"
@@ -18,8 +19,7 @@ Tensor stretched(const Tensor& G, const Vector& y, const Vector& n, double h) {
 }  // namespace
 
 LawTractions::SideLaw LawTractions::side_law_of(const MandelMatrix& C, const Mandel& initial, const Vector& n) {
-  Eigen::Matrix<double, 6, 3> strain;
-  for (Index k = 0; k < 3; ++k) strain.col(k) = to_mandel(symmetric_part(Vector::Unit(k) * n.transpose()));
+  const Eigen::Matrix<double, 6, 3> strain = strains_across(n);
   const Eigen::Matrix<double, 3, 6> rows = strain.transpose() * C;
   return {.rows = rows, .acoustic = rows * strain, .initial = to_tensor(initial) * n};
 }

@@ -4,6 +4,7 @@
 #include "physics/materials/prony.h"
 #include "tests/verification/cohesive_blocks.h"
 #include "tests/verification/finite.h"
+#include "tests/verification/heat_runs.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -30,22 +31,6 @@ std::shared_ptr<const Material> rubber(double poisson, std::optional<Temperature
                                            .shift = shift});
 }
 
-void give_heat(FractureModel& model, HeatModel heat) {
-  for (RegionModel& region : model.regions)
-    region.conductivity = 0.2, region.specific_heat = 1500.0, region.density = 1000.0;
-  model.heat = std::move(heat);
-}
-
-LoadingSettings cycles(double most, int steps_each) {
-  return {.end = most,
-          .initial_increment = 1.0 / steps_each,
-          .minimum_increment = 1e-6,
-          .maximum_increment = 1.0 / steps_each,
-          .duration = period,
-          .stops = {},
-          .is_proportional = false};
-}
-
 // What the heat's account has to be in every step: all that the body dissipates, and nothing is lost.
 void expect_account(const StepReport& report, double made) {
   EXPECT_NEAR(report.heat->account.made, made, 1e-12 + 1e-9 * made) << report.step;
@@ -55,7 +40,7 @@ void expect_account(const StepReport& report, double made) {
 // Rises at the ends of the cycles of an insulated body that strains evenly.
 Rises rises(const Mesh& mesh, FractureModel model, int steps_each) {
   give_heat(model, {.cycle = 1.0, .repeats_within = 1e-9});
-  FractureRun run(mesh, model, {.equilibrium_tolerance = 1e-11}, cycles(3.0, steps_each));
+  FractureRun run(mesh, model, {.equilibrium_tolerance = 1e-11}, cycles(3.0, steps_each, period));
   Rises found{};
   run_to_end(run, [&](const FractureState&, const StepReport& report) {
     if (report.step > 0) expect_account(report, report.energy.plastic_dissipation);
@@ -131,7 +116,7 @@ TEST(HeatedRubber, CyclesThatRepeatWarmForALongTime) {
   const Mesh mesh = bar(BoxCells::hexahedra);
   FractureModel model = finite_body(mesh, rubber(0.3), sheared(mesh, 0.8));
   give_heat(model, {.cycle = 1.0, .repeats_within = 5e-3});
-  FractureRun run(mesh, model, {}, cycles(8.0, 80));
+  FractureRun run(mesh, model, {}, cycles(8.0, 80, period));
   const FractureState end = run_to_end(run, [](const FractureState&, const StepReport&) {});
   EXPECT_LT(end.load, 3.5);
   CellField<double> warmed;
@@ -155,7 +140,7 @@ TEST(HeatedRubber, DebondingHeatsWhatItParts) {
          {.strength = strength, .toughness = toughness, .stiffness = 1e2 * mu / edge}, Vector::UnitX(),
          [](const Vector& x) { return std::abs(x.x() - edge) < 1e-9; });
     give_heat(model, {.debonding_share = share});
-    FractureRun run(mesh, model, {.equilibrium_tolerance = 1e-10}, cycles(1.0, 40));
+    FractureRun run(mesh, model, {.equilibrium_tolerance = 1e-10}, cycles(1.0, 40, period));
     StepReport last;
     const FractureState end = run_to_end(run, [&](const FractureState&, const StepReport& report) {
       const EnergyAccount& energy = report.energy;
@@ -181,7 +166,7 @@ TEST(HeatedRubber, ATornCellIsWarmedByWhatItsBranchesLose) {
   RegionModel& region = model.regions[0];
   region.damageable = true, region.Gc = 2.0 * mu, region.ell = 2.0;
   give_heat(model, {});
-  FractureRun run(mesh, model, {.damage_tolerance = 1e-6}, cycles(0.2, 200));
+  FractureRun run(mesh, model, {.damage_tolerance = 1e-6}, cycles(0.2, 200, period));
   StepReport last;
   run_to_end(run, [&](const FractureState&, const StepReport& report) {
     if (report.step > 0) expect_account(report, report.energy.plastic_dissipation + report.energy.viscous_dissipation);
@@ -207,7 +192,7 @@ TEST(HeatedRubber, AtAnotherTemperatureItHasOtherTimes) {
                          return {0.5 * t, 0.3 * t, 0.0};
                        })});
       model.loads.start_temperature = held_at;
-      FractureRun run(mesh, model, {.equilibrium_tolerance = 1e-12}, cycles(1.0, 10));
+      FractureRun run(mesh, model, {.equilibrium_tolerance = 1e-12}, cycles(1.0, 10, period));
       Vector found;
       run_to_end(run, [&](const FractureState&, const StepReport& report) {
         found = report.reaction[mesh.patch_index("xmax")];
@@ -234,7 +219,7 @@ std::array<Warmed, 2> warmed(const TemperatureShift& shift, double expansion, in
   model.regions[0].expansion = expansion * Tensor::Identity();
   model.loads.start_temperature = 290.0;
   give_heat(model, {.is_two_way = true});
-  FractureRun run(mesh, model, {.equilibrium_tolerance = 1e-11}, cycles(3.25, steps_each));
+  FractureRun run(mesh, model, {.equilibrium_tolerance = 1e-11}, cycles(3.25, steps_each, period));
   std::array<Warmed, 2> found{};
   run_to_end(run, [&](const FractureState&, const StepReport& report) {
     if (report.step > 0) expect_account(report, report.energy.plastic_dissipation);

@@ -6,6 +6,7 @@
 #include "physics/error.h"
 #include "physics/materials/prony.h"
 #include "tests/verification/finite.h"
+#include "tests/verification/heat_runs.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -26,16 +27,6 @@ std::shared_ptr<const Material> rubber(const std::vector<PronyBranch>& in_shear,
                                        VolumetricForm form = VolumetricForm::quadratic) {
   return make_hyperelastic("neo_hookean",
                            {.elasticity = relaxed, .volumetric = form, .branches = in_shear, .bulk_branches = in_bulk});
-}
-
-LoadingSettings in_steps(double end, double step, double duration) {
-  return {.end = end,
-          .initial_increment = step,
-          .minimum_increment = 1e-9,
-          .maximum_increment = step,
-          .duration = duration,
-          .stops = {},
-          .is_proportional = false};
 }
 
 struct Pulled {

@@ -2,6 +2,7 @@
 
 #include "physics/materials/prony.h"
 #include "tests/verification/cohesive_blocks.h"
+#include "tests/verification/heat_runs.h"
 
 #include <gtest/gtest.h>
 
@@ -13,22 +14,7 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-void give_heat(FractureModel& model, HeatModel heat) {
-  for (RegionModel& region : model.regions)
-    region.conductivity = 0.2, region.specific_heat = 1500.0, region.density = 1000.0;
-  model.heat = std::move(heat);
-}
 constexpr double capacity = 1500.0 * 1000.0;  // [J/(m^3 K)]
-
-LoadingSettings cycles(double most, int steps_each, double period) {
-  return {.end = most,
-          .initial_increment = 1.0 / steps_each,
-          .minimum_increment = 1e-6,
-          .maximum_increment = 1.0 / steps_each,
-          .duration = period,
-          .stops = {},
-          .is_proportional = false};
-}
 
 // Each cycle makes pi G'' gamma_0^2 per volume, G'' = mu_1 w tau/(1 + (w tau)^2), once the start has been forgotten.
 TEST(Heat, AShearedViscoelasticBlockWarmsByItsLoss) {

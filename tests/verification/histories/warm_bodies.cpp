@@ -3,6 +3,7 @@
 
 #include "physics/materials/prony.h"
 #include "tests/verification/finite.h"
+#include "tests/verification/heat_runs.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -49,16 +50,6 @@ FractureModel sheared(const Mesh& mesh, const PronyLaw& by, const std::function<
   region.conductivity = 0.2, region.specific_heat = 1500.0, region.density = 1000.0;
   model.loads.start_temperature = start;
   return model;
-}
-
-LoadingSettings in_steps(double end, double step, double duration) {
-  return {.end = end,
-          .initial_increment = step,
-          .minimum_increment = 1e-9,
-          .maximum_increment = step,
-          .duration = duration,
-          .stops = {},
-          .is_proportional = false};
 }
 
 double shear_stress(const Mesh& mesh, const StepReport& report) {
