@@ -8,6 +8,7 @@
 #include "solver/fracture/damage/damage_equation.h"
 #include "solver/fracture/damage/fatigue_cells.h"
 #include "solver/fracture/equilibrium/cohesive_newton.h"
+#include "solver/fracture/equilibrium/cohesive_path.h"
 #include "solver/fracture/equilibrium/coupled_newton.h"
 #include "solver/fracture/equilibrium/load_work.h"
 #include "solver/fracture/equilibrium/relaxation.h"

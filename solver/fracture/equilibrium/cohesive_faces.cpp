@@ -54,14 +54,19 @@ void CohesiveFaces::add(std::size_t number, const CohesiveSurface& surface, std:
                     .at = at});
 }
 
-std::vector<Vector> CohesiveFaces::branch_forces(const std::vector<InterfaceHistory>& histories) const {
-  const auto has_branches = [](const CohesiveSurface& surface) { return !surface.law.branches.empty(); };
-  if (std::ranges::none_of(model_.interfaces, has_branches)) return {};
-  std::vector<Vector> forces;
-  for (std::size_t k = 0; k < faces_.size(); ++k) {
+std::vector<Vector> CohesiveFaces::held_forces(const std::vector<InterfaceHistory>& histories) const {
+  const auto can_hold = [](const CohesiveSurface& surface) {
+    return surface.law.own_law != nullptr || !surface.law.branches.empty();
+  };
+  if (std::ranges::none_of(model_.interfaces, can_hold)) return {};
+  std::vector<Vector> forces(faces_.size());
+  parallel_for(count_of(faces_), [&](Index k) {
+    const Face& face = faces_[k];
     const BranchTractions& q = histories[k].branch;
-    forces.push_back(faces_[k].area * std::accumulate(q.begin(), q.end(), Vector(Vector::Zero())));
-  }
+    forces[k] =
+        face.area * (law(face).own_law ? law(face).respond(face.at, face.n, Vector::Zero(), histories[k]).traction
+                                       : std::accumulate(q.begin(), q.end(), Vector(Vector::Zero())));
+  });
   return forces;
 }
 
@@ -71,8 +76,11 @@ bool CohesiveFaces::has_rate_laws() const {
 
 bool CohesiveFaces::are_sound(const std::vector<InterfaceHistory>& histories) const {
   const auto can_rub = [](const CohesiveSurface& surface) { return surface.law.friction > 0.0; };
-  return std::ranges::none_of(model_.interfaces, can_rub) &&
-         std::ranges::all_of(histories, [](const InterfaceHistory& of) { return of.dissipated == 0.0; });
+  if (std::ranges::any_of(model_.interfaces, can_rub)) return false;
+  constexpr double rounding = 1e-9;  // of the toughness
+  for (std::size_t k = 0; k < faces_.size(); ++k)
+    if (histories[k].dissipated > rounding * faces_[k].at.toughness) return false;
+  return true;
 }
 
 double CohesiveFaces::bond(Index face) const {

@@ -35,8 +35,9 @@ class CohesiveFaces {
   bool has_rate_laws() const;
   /// Whether no face has dissipated anything yet, and none can rub.
   bool are_sound(const std::vector<InterfaceHistory>& histories) const;
-  /// Forces of the branches of each face while it is whole [N]; empty without branches.
-  std::vector<Vector> branch_forces(const std::vector<InterfaceHistory>& histories) const;
+  /// Forces of each face without a separation [N]: those of the branches while it is whole, and what laws of one's own
+  /// remember, as of a plastic separation. Empty without either.
+  std::vector<Vector> held_forces(const std::vector<InterfaceHistory>& histories) const;
   /// Begins a load step, which takes `duration` [s].
   void start_step(double duration) { duration_ = duration; }
   std::vector<InterfaceHistory> virgin_histories() const { return std::vector<InterfaceHistory>(faces_.size()); }

@@ -67,10 +67,23 @@ class WayOut {
   bool marching_ = false, has_marched_ = false;
 };
 
-/// Residual that is small enough, given that at the start.
-double target_of(const MomentumSolver::Tolerance& tolerance, double initial) {
-  return std::max(tolerance.floor, std::min(tolerance.ceiling, tolerance.reduction * initial));
-}
+/// Tells iterations that go in circles: their residuals come back.
+class Circles {
+ public:
+  /// Whether residuals have come back too often, this one among them.
+  bool close_with(double residual) {
+    const auto is_it = [&](double other) { return std::abs(other - residual) <= alike * residual; };
+    if (std::ranges::any_of(seen_, is_it)) ++returns_;
+    seen_.push_back(residual);
+    return returns_ >= bearable_returns;
+  }
+
+ private:
+  static constexpr double alike = 1e-5;
+  static constexpr Index bearable_returns = 20;
+  std::vector<double> seen_;
+  Index returns_ = 0;
+};
 
 /// Newton's iteration for the equilibrium with the laws of the faces at the load t; u is moved.
 class FacesNewton {
@@ -91,7 +104,7 @@ class FacesNewton {
         is_sound_(faces.are_sound(before)) {}
 
   Equilibrium solve(const BalanceWatch& watch) {
-    momentum_.set_held_forces(faces_.branch_forces(before_));
+    momentum_.set_held_forces(faces_.held_forces(before_));
     const Index most = cells_ ? most_finite_solves : most_solves;
     double last = std::numeric_limits<double>::infinity();
     for (Index k = 0; k < most; ++k) {
@@ -100,9 +113,10 @@ class FacesNewton {
       note(step, k == 0);
       if (whole_.converged && has_rate_) return without_last_step();  // the overstresses belong to it
       if (whole_.converged || !std::isfinite(step.residual)) return whole_;
-      if (residual > lost * std::max(1.0, whole_.initial_residual)) return without_hope();
       const bool solved = step.residual < bearable_rest * residual;
       if (residual <= tolerance_.good_enough && !(solved && residual < falls * last)) return without_last_step();
+      if (residual > lost * std::max(1.0, whole_.initial_residual) || circles_.close_with(residual))
+        return without_hope();
       // After the first solve of sound faces, too: what is left of it takes stiff ones far beyond their strength.
       if (!has_rate_ && ((k == 0 && is_sound_) || way_out_.is_marching() || residual > falls * last)) settle();
       last = residual;
@@ -155,7 +169,7 @@ class FacesNewton {
     whole_.residual = step.initial_residual;
     if (is_first) {
       whole_.initial_residual = step.initial_residual;
-      target_ = target_of(tolerance_, step.initial_residual);
+      target_ = tolerance_.target(step.initial_residual);
     }
     whole_.converged = step.initial_residual <= target_;
   }
@@ -180,6 +194,7 @@ class FacesNewton {
   std::vector<Vector>& u_;
   std::vector<InterfaceHistory>& after_;
   WayOut way_out_;
+  Circles circles_;
   bool has_rate_;             // steep where faces begin to move
   bool is_sound_;             // before the step
   std::vector<Vector> from_;  // before the step
@@ -195,103 +210,6 @@ Equilibrium solve_with_faces(const CohesiveFaces& faces, const std::vector<Inter
                              MomentumSolver& momentum, std::vector<Vector>& u, std::vector<InterfaceHistory>& after,
                              const BalanceWatch& watch) {
   return FacesNewton(faces, before, t, tolerance, cells, momentum, u, after).solve(watch);
-}
-
-namespace {
-
-constexpr Index most_turns = 60;         // of path-following
-constexpr double path_precision = 1e-3;  // of the dissipation
-constexpr double load_apart = 0.02;      // of the load, between the two solutions
-constexpr double furthest = 0.3;         // change of the load in a turn
-
-/// Solutions of the linearised equations: of the load, and how they change with it.
-struct SolutionLine {
-  double load;
-  std::vector<Vector> u, slope;
-
-  std::vector<Vector> at(double t) const { return combined(u, t - load, slope); }
-  static std::vector<Vector> combined(const std::vector<Vector>& a, double factor, const std::vector<Vector>& b) {
-    std::vector<Vector> sum(a.size());
-    parallel_for(count_of(a), [&](Index i) { sum[i] = a[i] + factor * b[i]; });
-    return sum;
-  }
-};
-
-/// Follows the path of one step.
-struct PathFollower {
-  const CohesiveFaces& faces;
-  const std::vector<InterfaceHistory>& before;
-  const FacesPath& path;
-  MomentumSolver& momentum;
-  MomentumSolver::Tolerance inner;
-
-  double excess(const std::vector<Vector>& u) const {
-    return faces.dissipated_at(momentum.balance(), u, before) - path.dissipation;
-  }
-
-  Index complete(SolutionLine& line) const {
-    line.slope = line.u;
-    const double apart = load_apart * line.load;
-    const Index iterations = momentum.solve(line.load + apart, inner, line.slope).iterations;
-    parallel_for(count_of(line.u), [&](Index i) { line.slope[i] = (line.slope[i] - line.u[i]) / apart; });
-    return iterations;
-  }
-
-  /// The load at which the faces dissipate what they may, to first order about u.
-  double next_load(const SolutionLine& line, const std::vector<Vector>& u) const {
-    const double most = std::min(path.most_load, (1.0 + furthest) * line.load);
-    const double growth = faces.dissipation_growth(momentum.balance(), u, before, line.slope);
-    if (growth == 0.0) return first_load(line, most);
-    const std::vector<Vector> change = SolutionLine::combined(line.u, -1.0, u);
-    const double due = -excess(u) - faces.dissipation_growth(momentum.balance(), u, before, change);
-    return std::clamp(line.load + due / growth, (1.0 - furthest) * line.load, most);
-  }
-
-  /// First load, where nothing dissipates yet: the greatest one, or a smaller one that does not dissipate more than it
-  /// may.
-  double first_load(const SolutionLine& line, double most) const {
-    double load = most;
-    for (int i = 0; i < 40 && excess(line.at(load)) > 0.0; ++i) load = 0.5 * (load + line.load);
-    return load;
-  }
-};
-
-}  // namespace
-
-Equilibrium follow_with_faces(const CohesiveFaces& faces, const std::vector<InterfaceHistory>& before,
-                              const FacesPath& path, const MomentumSolver::Tolerance& tolerance,
-                              MomentumSolver& momentum, double& load, std::vector<Vector>& u) {
-  const PathFollower follower{.faces = faces,
-                              .before = before,
-                              .path = path,
-                              .momentum = momentum,
-                              .inner = {.reduction = 1e-4,
-                                        .ceiling = 1.0,
-                                        .floor = 0.1 * tolerance.floor,
-                                        .most_iterations = tolerance.most_iterations}};
-  Equilibrium whole;
-  double target = 0.0;
-  for (Index k = 0; k < most_turns; ++k) {
-    faces.linearise(u, before, before, CohesiveFaces::Way::tangent, momentum);
-    const double excess = follower.excess(u);
-    SolutionLine line{.load = load, .u = u, .slope = {}};
-    const Equilibrium step = momentum.solve(load, follower.inner, line.u);
-    whole.iterations += step.iterations;
-    whole.residual = step.initial_residual;
-    if (k == 0) {
-      whole.initial_residual = step.initial_residual;
-      target = target_of(tolerance, step.initial_residual);
-    }
-    const bool keeps_limit = load >= path.most_load ? excess <= path_precision * path.dissipation
-                                                    : std::abs(excess) <= path_precision * path.dissipation;
-    whole.converged = step.initial_residual <= target && keeps_limit;
-    if (whole.converged || !std::isfinite(step.residual)) return whole;
-    whole.iterations += follower.complete(line);
-    load = follower.next_load(line, u);
-    u = line.at(load);
-  }
-  whole.residual = std::numeric_limits<double>::infinity();  // the step is to be cut
-  return whole;
 }
 
 }  // namespace pfdm

@@ -92,7 +92,7 @@ Equilibrium solve_finite(const CellStiffness& stiffness, const MomentumSolver::T
                                               state.displacement);
     if (step == 0) {
       total.initial_residual = linear.initial_residual;
-      target = std::max(tolerance.floor, std::min(tolerance.ceiling, tolerance.reduction * linear.initial_residual));
+      target = tolerance.target(linear.initial_residual);
     }
     total.iterations += linear.iterations;
     total.residual = linear.initial_residual;

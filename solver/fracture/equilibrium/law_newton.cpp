@@ -57,8 +57,7 @@ Equilibrium solve_with_laws(const CellStiffness& stiffness, const MomentumSolver
   stiffness.set(state, momentum);
   Equilibrium total;
   total.residual = total.initial_residual = momentum.residual(state.load, state.displacement);
-  const double target =
-      std::max(tolerance.floor, std::min(tolerance.ceiling, tolerance.reduction * total.initial_residual));
+  const double target = tolerance.target(total.initial_residual);
   // Of materials with inclined axes plates have slow modes that a part of a cycle leaves as they are.
   const Index whole_cycle = momentum.balance().is_of_third_order() ? momentum.restart_length() : 0;
   for (Index k = 0; k < most_law_steps && total.residual > target; ++k) {

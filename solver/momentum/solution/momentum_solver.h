@@ -9,6 +9,7 @@
 #include "solver/momentum/solution/preconditioner.h"
 #include "solver/momentum/solution/stale_preconditioner.h"
 
+#include <algorithm>
 #include <optional>
 
 namespace pfdm {
@@ -67,6 +68,9 @@ class MomentumSolver {
     Index most_iterations = 2000;  ///< of FGMRES
     bool whole_cycle = true;       ///< in slender bodies at least a cycle of iterations, which may be more
     double good_enough = 0.0;      ///< a residual from which on slow convergence ends the solution
+
+    /// Residual to reach from that at the start.
+    double target(double initial) const { return std::max(floor, std::min(ceiling, reduction * initial)); }
   };
   Equilibrium solve(double t, const Tolerance& tolerance, std::vector<Vector>& u);
   /// Forces [N] at the load parameter t that the displacements u do not balance; zero where those are prescribed.
