@@ -119,4 +119,14 @@ std::optional<BendingError> largest_bending_error(const Mesh& mesh, const Unknow
   return largest[too_long > 0.5 * all ? 1 : 0];
 }
 
+std::optional<TurnedLayers> fewest_turned_layers(const Mesh& mesh, const Unknowns& unknowns) {
+  constexpr double least_range = 0.1;
+  std::optional<TurnedLayers> found;
+  over_layers(mesh, unknowns, [&](const BendingCell& in, const BendingLayers& at, double) {
+    if (at.turn.range < least_range || (found && found->layers.n <= at.n)) return;
+    found = {.cell = in.cell, .layers = at};
+  });
+  return found;
+}
+
 }  // namespace pfdm

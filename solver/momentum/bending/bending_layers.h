@@ -160,4 +160,12 @@ struct BendingError {
 std::optional<BendingError> largest_bending_error(const Mesh& mesh, const Unknowns& unknowns,
                                                   BendBy by = BendBy::one_ring);
 
+/// Of the bodies at least three times as long as thick whose material axes turn across their layers the one of the
+/// fewest layers, at a cell of it; empty without such bodies.
+struct TurnedLayers {
+  Index cell = 0;
+  BendingLayers layers;
+};
+std::optional<TurnedLayers> fewest_turned_layers(const Mesh& mesh, const Unknowns& unknowns);
+
 }  // namespace pfdm

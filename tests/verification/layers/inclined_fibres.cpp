@@ -205,6 +205,24 @@ TEST(InclinedFibres, ThatTurnAreWarnedOf) {
   }
 }
 
+// Their slopes know how axes turn as long as the layers are sound (figures of bending.md).
+TEST(InclinedFibres, ThatTurnAndBreakAreWarnedOf) {
+  const Mesh four = mesh_of(50, 4), many = mesh_of(100, 16);
+  FractureModel model = turning_model(four, 60.0, 30.0, clamped_at_x0(false));
+  const auto set_damageable = [&](bool damageable) {
+    for (RegionModel& cell : model.cells) cell.damageable = damageable;
+  };
+  set_damageable(false);
+  EXPECT_EQ(bending_warning(four, model), std::nullopt);
+  set_damageable(true);
+  const auto warning = bending_warning(four, model);
+  ASSERT_TRUE(warning.has_value());
+  EXPECT_THAT(*warning, HasSubstr("axes of the material turn across 4 layers of cells: where they bend and crack"));
+  model = turning_model(many, 60.0, 30.0, clamped_at_x0(false));
+  set_damageable(true);
+  EXPECT_EQ(bending_warning(many, model), std::nullopt);
+}
+
 // The thinnest of the directions in which fibres are inclined: along the sides of a bar, and across the width.
 TEST(InclinedFibres, BendAboutEitherSide) {
   for (const bool is_turned : {false, true}) {
