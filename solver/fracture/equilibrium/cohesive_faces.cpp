@@ -218,7 +218,15 @@ std::vector<std::string> CohesiveFaces::warnings() const {
     const Index f = model_.interfaces[face.surface].faces[k - first];
     length[face.surface] = (mesh_.cell_centre[mesh_.neighbour[f]] - mesh_.cell_centre[mesh_.owner[f]]).norm();
   }
+  constexpr double jams = 1.0;  // friction from which on, as measured
   std::vector<std::string> lines;
+  for (const CohesiveSurface& surface : model_.interfaces)
+    if (surface.law.friction >= jams)
+      lines.push_back(
+          fmt::format("interface \"{}\": with a friction of {:.3g} bodies that slide may jam, and which of several "
+                      "equilibria is found "
+                      "depends on the load steps: compare with loading.maximum_increment halved",
+                      surface.name, surface.law.friction));
   for (std::size_t s = 0; s < worst.size(); ++s)
     if (worst[s] > 1.0)
       lines.push_back(fmt::format(

@@ -17,6 +17,8 @@ constexpr double convex_reduction = 0.1;      // likewise, without what softens
 constexpr Index most_newton_iterations = 80;  // of FGMRES: where the tangent is not definite more do not help
 constexpr double lost = 1e6;                  // residual from which nothing leads back, over that at the start
 constexpr double bearable_rest = 0.3;         // of the residual, after so many
+constexpr double bearable_circles = 1e-3;  // residual with which damage may go on where the iteration goes in circles
+constexpr double exact_enough = 1e-4;      // residual from which faces that are sound stay so
 
 /// Whether the next step is by tangent or by its convex part. Convex steps lead from below to where the faces come to
 /// rest, however far that is; where tangents do not lead on, the iteration goes back to where those had come to.
@@ -115,10 +117,14 @@ class FacesNewton {
       if (whole_.converged || !std::isfinite(step.residual)) return whole_;
       const bool solved = step.residual < bearable_rest * residual;
       if (residual <= tolerance_.good_enough && !(solved && residual < falls * last)) return without_last_step();
-      if (residual > lost * std::max(1.0, whole_.initial_residual) || circles_.close_with(residual))
-        return without_hope();
+      if (residual > lost * std::max(1.0, whole_.initial_residual)) return without_hope();
+      if (circles_.close_with(residual)) {
+        if (residual > bearable_circles) return without_hope();
+        break;
+      }
       // After the first solve of sound faces, too: what is left of it takes stiff ones far beyond their strength.
-      if (!has_rate_ && ((k == 0 && is_sound_) || way_out_.is_marching() || residual > falls * last)) settle();
+      const bool is_rough = k == 0 && is_sound_ && residual > exact_enough;
+      if (!has_rate_ && (is_rough || way_out_.is_marching() || residual > falls * last)) settle();
       last = residual;
       way_ = way_out_.next(residual, solved, u_);
       if (cells_) cells_();

@@ -66,11 +66,14 @@ void MomentumSolver::set_finite(const FiniteLawAt& law, const std::vector<GapStr
 
 void MomentumSolver::set_springs(std::vector<FaceSpring> springs, const std::vector<double>& bond) {
   constexpr double least = 1e-3;  // of the bond: a softer face hardly connects
-  std::vector<double> measure(springs.size());
-  for (std::size_t k = 0; k < springs.size(); ++k)
-    measure[k] = 1.0 / (1.0 / (springs[k].secant.trace() / 3.0 + least * bond[k]) + 1.0 / bond[k]);
+  const Tensor one = Tensor::Identity();
+  std::vector<Tensor> in_series(springs.size());
+  parallel_for(count_of(springs), [&](Index k) {
+    const Tensor spring = springs[k].secant + least * bond[k] * one;
+    in_series[k] = (spring.inverse() + one / bond[k]).inverse();
+  });
   operator_.set_springs(std::move(springs));
-  stale_.renew_springs(std::move(measure));
+  stale_.renew_springs(std::move(in_series));
 }
 
 void MomentumSolver::build_preconditioner() {

@@ -4,6 +4,7 @@
 #include "physics/registry.h"
 #include "solver/linear/multigrid.h"
 #include "solver/linear/sparse_cholesky.h"
+#include "solver/momentum/solution/split_condensation.h"
 #include "solver/parallel.h"
 
 #include <fmt/format.h>
@@ -18,30 +19,44 @@ namespace {
 // (tests/benchmark/log_solvers.md).
 constexpr Index most_direct_cells = 40000;
 
-// Row of each node: face nodes follow a cell of theirs.
+// Row of each node that stays when those of split faces are eliminated: face nodes follow a cell of theirs.
 std::vector<Index> interleave_face_nodes(const Mesh& mesh, const Unknowns& unknowns) {
-  std::vector<Index> position(unknowns.n_nodes());
+  std::vector<Index> position(unknowns.n_nodes(), -1);
   Index next = 0;
   for (Index c = 0; c < mesh.n_cells(); ++c) {
     position[c] = next++;
-    for (const Index f : mesh.faces_of_cell(c)) {
-      const bool has_own = mesh.owner[f] == c || unknowns.node_beside(mesh, c, f) != unknowns.node_of_face[f];
-      if (const Index node = unknowns.node_beside(mesh, c, f); node >= 0 && has_own) position[node] = next++;
-    }
+    for (const Index f : mesh.faces_of_cell(c))
+      if (const Index node = unknowns.node_of_face[f]; node >= 0 && mesh.owner[f] == c && !unknowns.is_split(f))
+        position[node] = next++;
   }
+  std::erase(position, -1);
   return position;
 }
 
 class MultigridCycle : public Preconditioner {
  public:
   MultigridCycle(const Mesh& mesh, const Unknowns& unknowns)
-      : row_of_node_(interleave_face_nodes(mesh, unknowns)), b_(row_of_node_.size()), x_(row_of_node_.size()) {}
+      : row_of_node_(interleave_face_nodes(mesh, unknowns)), b_(row_of_node_.size()), x_(row_of_node_.size()) {
+    if (!unknowns.split_faces.empty()) split_.emplace(mesh, unknowns);
+  }
 
   void build(const BlockTriplets& matrix, const MomentumOperator&) override {
-    multigrid_.emplace(compress(matrix, row_of_node_));
+    multigrid_.emplace(compress(split_ ? split_->condense(matrix) : matrix, row_of_node_));
   }
 
   void apply(const std::vector<Vector>& r, std::vector<Vector>& z) override {
+    if (!split_) {
+      cycle(r, z);
+      return;
+    }
+    split_->condense(r, right_);
+    left_.resize(right_.size());
+    cycle(right_, left_);
+    split_->expand(left_, r, z);
+  }
+
+ private:
+  void cycle(const std::vector<Vector>& r, std::vector<Vector>& z) {
     const auto n = count_of(row_of_node_);
     parallel_for(n, [&](Index i) {
       Lane& to = b_[row_of_node_[i]];
@@ -52,10 +67,11 @@ class MultigridCycle : public Preconditioner {
     parallel_for(n, [&](Index i) { z[i] = x_[row_of_node_[i]].head<3>().cast<double>(); });
   }
 
- private:
-  std::vector<Index> row_of_node_;
+  std::vector<Index> row_of_node_;  // of those that stay
+  std::optional<SplitCondensation> split_;
   std::optional<Multigrid> multigrid_;
   std::vector<Lane> b_, x_;
+  std::vector<Vector> right_, left_;  // of the nodes that stay
 };
 
 class CholeskyFactors : public Preconditioner {

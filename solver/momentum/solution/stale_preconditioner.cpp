@@ -3,6 +3,8 @@
 #include "solver/momentum/finite_strain/finite_tractions.h"
 #include "solver/parallel.h"
 
+#include <Eigen/Eigenvalues>
+
 #include <algorithm>
 
 namespace pfdm {
@@ -12,6 +14,13 @@ namespace {
 constexpr double bearable_ratio = 2.0;
 
 double ratio(double a, double b) { return std::max(a / b, b / a); }
+
+// Largest ratio of two stiffnesses in any direction.
+double ratio(const Tensor& a, const Tensor& b) {
+  const auto eigenvalues =
+      Eigen::GeneralizedSelfAdjointEigenSolver<Tensor>(a, b, Eigen::EigenvaluesOnly | Eigen::Ax_lBx).eigenvalues();
+  return std::max(eigenvalues[2], 1.0 / eigenvalues[0]);
+}
 
 }  // namespace
 
@@ -39,11 +48,11 @@ bool StalePreconditioner::renew(const CellField<double>& measure, const FiniteTr
   return true;
 }
 
-bool StalePreconditioner::renew_springs(std::vector<double> measure) {
-  bool keeps = springs_.size() == measure.size();
-  for (std::size_t k = 0; keeps && k < measure.size(); ++k) keeps = !(ratio(measure[k], springs_[k]) > bearable_ratio);
-  if (keeps) return false;
-  springs_ = std::move(measure);
+bool StalePreconditioner::renew_springs(std::vector<Tensor> in_series) {
+  if (springs_.size() == in_series.size() &&
+      parallel_max(count_of(in_series), [&](Index k) { return ratio(in_series[k], springs_[k]); }) <= bearable_ratio)
+    return false;
+  springs_ = std::move(in_series);
   if (state_ == State::serving) state_ = State::due;
   return true;
 }

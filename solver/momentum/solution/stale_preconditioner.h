@@ -45,8 +45,9 @@ class StalePreconditioner {
   /// Compares the stiffness at finite strain: due also if cells that are not broken have turned or stretched by a good
   /// part.
   bool renew(const CellField<double>& measure, const FiniteTractions& tractions);
-  /// Compares the stiffness of the split faces.
-  bool renew_springs(std::vector<double> measure);
+  /// Compares the stiffness of the split faces, in series with that of the cells beside them, in every direction:
+  /// symmetric and positive definite.
+  bool renew_springs(std::vector<Tensor> in_series);
 
   void was_built() { state_ = State::serving; }
   void was_used(bool converged) { struggled_ = !converged; }
@@ -63,7 +64,7 @@ class StalePreconditioner {
   CellField<double> measure_;
   CellField<IsotropicElasticity> moduli_;  // empty for a general stiffness
   CellField<Tensor> deformation_;          // F; empty at small strain
-  std::vector<double> springs_;            // measure of the split faces' stiffness
+  std::vector<Tensor> springs_;            // of the split faces in series with the cells beside them
 };
 
 }  // namespace pfdm

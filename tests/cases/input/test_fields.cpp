@@ -128,6 +128,17 @@ TEST(Fields, AreParametersOfMaterials) {
   EXPECT_NEAR(final_force(by_file) / final_force(by_formula), 1.0, 1e-12);
 }
 
+TEST(Fields, OfNumbersMayHaveAUnit) {
+  for (const char* unit : {"", ", unit = \"1\"", ", unit = \"%\""}) {
+    const std::string field =
+        fmt::format("{{ csv = \"n.csv\", column = \"nu\", x = \"x\", length_unit = \"m\"{} }}", unit);
+    const TemporaryCase directory(replaced(bar_case(), poisson_ratio, "poisson_ratio = " + field + "\n"));
+    directory.write("n.csv", "x,nu\n0,0.1\n0.02,0.2\n");
+    const Outcome outcome = run({"check", directory.path().string()});
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+  }
+}
+
 TEST(Fields, BelongToTheResults) {
   const TemporaryCase directory(
       held_bar("{ csv = \"t.csv\", column = \"T\", x = \"x\", length_unit = \"m\", unit = \"K\" }"));

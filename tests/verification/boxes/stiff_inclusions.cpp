@@ -82,12 +82,14 @@ TEST(SlidingCube, LosesItsStressWithItsStrain) {
   mesh.region_names = {"binder", "cube"};
   for (Index c = 0; c < mesh.n_cells(); ++c)
     mesh.region[c] = (mesh.cell_centre[c] - Vector::Constant(0.5e-3)).cwiseAbs().maxCoeff() < 0.25e-3 ? 1 : 0;
-  // Of pressure and of shear, from 1 on to almost nothing: together, or one before the other.
-  constexpr double last = 1e-6;
+  // Of pressure and of shear, from 1 on to almost nothing: together, or one before the other. With a friction of 1 or
+  // more the cube may also stay jammed where the pressure goes first (equilibrium.md).
+  constexpr double last = 1e-6, least_that_jams = 1.0;
   const std::array<std::vector<double>, 2> ways[] = {
       {{{1.0, last}, {1.0, last}}}, {{{1.0, 1.0, last}, {1.0, last, last}}}, {{{1.0, last, last}, {1.0, 1.0, last}}}};
-  for (const double friction : {0.6, 2.0})
+  for (const double friction : {0.6, 0.8, 2.0})
     for (const auto& [pressure, shear] : ways) {
+      if (friction >= least_that_jams && pressure[1] < shear[1]) continue;
       FractureModel model = elastic_model({from_young_poisson(50e6, 0.4), from_young_poisson(1e9, 0.3)}, {});
       CohesiveSurface bond{.name = "bond", .law = law_of(linear_law()), .faces = {}};
       bond.law.friction = friction;
@@ -106,7 +108,7 @@ TEST(SlidingCube, LosesItsStressWithItsStrain) {
       const double left = steps.back().means->stress.norm() / most;
       report_row(fmt::format("friction {}, {} points", friction, pressure.size()),
                  {{"stress left at 1e-6 of the strain", left}});
-      EXPECT_LE(left, 3e-6);  // 0.7e-6 or 2.4e-6, by rounding, with a friction of 2 and shear taken off first
+      EXPECT_LE(left, 2.0 * last);
     }
 }
 

@@ -36,7 +36,8 @@ Units read_units(const ConfigTable& table, const Dimension& due) {
   if (due.name != dimension::number.name || table.has("unit")) {
     const ConfigValue unit = table.at("unit");
     units.factor = unit.in_context([&] { return unit_in_si(unit.string(), due); });
-    units.shift = unit.in_context([&] { return parse_quantity("0 " + unit.string(), due); });
+    if (due.name != dimension::number.name)
+      units.shift = unit.in_context([&] { return parse_quantity("0 " + unit.string(), due); });
   }
   const auto reference = table.find("reference");
   if (!reference && units.shift != 0.0)
