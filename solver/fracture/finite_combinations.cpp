@@ -1,6 +1,7 @@
 #include "solver/fracture/finite_combinations.h"
 
 #include "physics/error.h"
+#include "physics/materials/prony.h"
 #include "physics/quantity_text.h"
 
 #include <fmt/format.h>

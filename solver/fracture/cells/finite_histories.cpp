@@ -76,8 +76,8 @@ MaterialEnergy FiniteHistories::energy(Index cell, const CellHistories& historie
   const bool drives = material_[cell]->drive() == PronyDrive::stored;
   return {.driving = drives ? stored : 0.0,
           .idle = drives ? 0.0 : stored,
-          .locked = gaps_.locked(gaps),
-          .dissipated = branches(cell).heat(law) + gaps_.dissipated(gaps)};
+          .locked = RelaxingGaps::locked(gaps),
+          .dissipated = branches(cell).heat(law) + RelaxingGaps::dissipated(gaps)};
 }
 
 }  // namespace pfdm

@@ -125,6 +125,7 @@ class LayerGradients::Maker {
     const std::vector<Place> places = places_through(cell, faces);
     if (places.empty()) return;
     std::vector<LinePlace> at;
+    at.reserve(places.size());
     for (const Place& in : places)
       at.push_back(
           {in.at, in.at_held, in.face < 0 ? Tensor::Zero() : Tensor(Tensor::Identity() - walk_.free_part(in.face))});

@@ -52,7 +52,7 @@ CellMechanics unknown_mechanics(std::size_t n_cells, std::size_t n_parts) {
 
 Tensor FiniteTractions::elastic_spread(Index cell, Index line, const CellField<Tensor>& gradients) const {
   const LayerGradients& layers = cells_.layers();
-  const Tensor whole = layers.spread(line, gradients);
+  Tensor whole = layers.spread(line, gradients);
   if (!eigenstrain_.any()) return whole;
   const Tensor free = Tensor::Identity() + to_tensor(eigenstrain_[cell]);
   const Tensor of_free = to_tensor(layers.spread(line, eigenstrain_.all()));
@@ -94,7 +94,7 @@ void FiniteTractions::add_work_of_moments(CellMechanics& result) const {
 Vector FiniteTractions::gap(Index cell, const Vector& d, std::size_t turn, const Vector& move,
                             const FaceMoves& moves) const {
   const FiniteSweep& s = of(moves.sweep);
-  const Vector whole = move - rise(cell, d, turn, s);
+  Vector whole = move - rise(cell, d, turn, s);
   const std::size_t i = turn / 2;
   if (skeleton_.is_side(turn) || !weights_.turns(i)) return whole;
   const Link& link = skeleton_.links[i];
