@@ -4,6 +4,7 @@
 #include "physics/error.h"
 #include "solver/fracture/body_heat.h"
 #include "solver/fracture/combinations.h"
+#include "solver/fracture/damage/fatigue_cells.h"
 #include "solver/fracture/damage/residual_stiffness.h"
 #include "solver/fracture/finite_stop.h"
 #include "solver/fracture/increments.h"
@@ -46,7 +47,7 @@ struct FractureRun::Parts {
   SpreadDamage spread_damage;
   RateResolution rate_resolution;
   FatigueWork fatigue_work;
-  BodyHeat heat;
+  std::unique_ptr<BodyHeat> heat;
   Index krylov_iterations = 0, staggered_iterations = 0;
 
   Parts(std::unique_ptr<const Mesh> given_away, FractureModel fm, const StaggeredSettings& given, LoadingSettings l)
@@ -62,7 +63,7 @@ struct FractureRun::Parts {
         staggered(m, model, unknowns, given),
         settings(given),
         residual_stiffness(model.residual_stiffness, loading.is_proportional && !model.has_cycles()),
-        heat((require_combination(mesh, model, unknowns, loading), m), model, unknowns.plane_normal) {
+        heat((require_combination(mesh, model, unknowns, loading), make_body_heat(m, model, unknowns.plane_normal))) {
     relax_initial_damage();
   }
 
@@ -81,7 +82,7 @@ struct FractureRun::Parts {
   bool follows_faces() const { return !model.interfaces.empty() && loading.controls_dissipation(); }
 
   double next_stop(double load) const {
-    return staggered.fatigue().next_stop(load, std::min(next_frame(loading, load), heat.end_of_cycle(load)));
+    return staggered.fatigue().next_stop(load, std::min(next_frame(loading, load), heat->end_of_cycle(load)));
   }
 
   // held: the last load with equilibrium; load: one at which only the residual stiffness carries the tractions.
@@ -109,7 +110,7 @@ struct FractureRun::Parts {
     trial.state.step = state.step + 1;
     trial.state.load = state.load + planned > stop - load_rounding ? stop : state.load + planned;
     trial.increment = trial.state.load - state.load;
-    heat.begin(trial.state.heat);
+    heat->begin(trial.state.heat);
     if (state.load > 0.0 && is_proportional() && !follows_faces())
       for (Vector& u : trial.state.displacement) u *= trial.state.load / state.load;
     trial.outcome = staggered.solve_step(state, trial.state, step_limits(loading, trial.increment, planned), watch);
@@ -130,7 +131,7 @@ struct FractureRun::Parts {
     next.energy.eigenstrain_work += state.energy.eigenstrain_work;
     for (const EnergyEntry& entry : energy_entries)
       if (entry.role == EnergyEntry::Role::dissipated) next.energy.*entry.value += state.energy.*entry.value;
-    if (heat.any()) heat.advance(staggered, state, increment * loading.duration, next);
+    heat->advance(staggered, state, increment * loading.duration, next);
     staggered.fatigue().end_cycle(next.load, next.fatigue);
     next.increment = next_increment(loading, settings, planned, outcome);
     const bool follows_path = loading.controls_dissipation();
@@ -140,7 +141,7 @@ struct FractureRun::Parts {
     const double work = model.has_cycles() ? 0.0 : supplied(state.energy);  // of cycles it is mostly dissipated
     const std::string residual =
         residual_stiffness.remark(outcome.share, std::max(outcome.starting_energy, work), state.load);
-    for (const std::string& remark : {unstable, unresolved, residual, fatigue_work.remark(staggered.fatigue(), state)})
+    for (const std::string& remark : {unstable, unresolved, residual, staggered.fatigue().remark(fatigue_work, state)})
       if (!remark.empty()) remarks.push_back(remark);
     StepReport result = report(state, outcome, increment);
     result.remarks = std::move(remarks);
@@ -158,8 +159,8 @@ struct FractureRun::Parts {
     r.debonded_area =
         staggered.faces().debonded_areas(staggered.momentum().balance(), state.displacement, state.interfaces);
     const CellField<double> damage = staggered.damage_equation().stiffness_damage().of(state.damage);
-    if (heat.any()) r.heat = heat.report(state.heat);
-    if (staggered.fatigue().any()) r.fatigue = staggered.fatigue().report(state);
+    r.heat = heat->report(state.heat);
+    r.fatigue = staggered.fatigue().report(state);
     r.max_damage = parallel_max(mesh.n_cells(), [&](Index c) { return damage[c]; });
     r.damaged_volume =
         parallel_sum(mesh.n_cells(), [&](Index c) { return damage[c] > 0.5 ? mesh.cell_volume[c] : 0.0; });
@@ -167,16 +168,6 @@ struct FractureRun::Parts {
     r.krylov_iterations = outcome.krylov_iterations;
     r.increment = increment;
     return r;
-  }
-
-  void show_finite_strain(const CellMechanics& mechanics, const FractureState& state, OutputFields& fields) {
-    fields.deformation_gradient = CellField<Tensor>(mesh.n_cells());
-    parallel_for(mesh.n_cells(), [&](Index c) {
-      const Tensor F = staggered.stiffness().deformation(c, mechanics, state);
-      fields.deformation_gradient[c] = F;
-      fields.strain[c] = 0.5 * (F.transpose() * F - Tensor::Identity());
-      fields.stress[c] = staggered.stiffness().cauchy_stress(c, mechanics, state, unknowns.plane_normal);
-    });
   }
 };
 
@@ -200,13 +191,13 @@ FractureState FractureRun::initial_state() const {
   state.histories = parts_->staggered.stiffness().virgin_histories();
   state.interfaces = parts_->staggered.faces().virgin_histories();
   state.boundary_force.assign(parts_->mesh.n_faces() - parts_->mesh.n_interior_faces(), Vector::Zero());
-  state.heat = parts_->heat.start(parts_->loading.duration);
+  state.heat = parts_->heat->start(parts_->loading.duration);
   state.fatigue = parts_->staggered.fatigue().virgin();
   return state;
 }
 
 bool FractureRun::is_complete(const FractureState& state) const {
-  return state.load >= parts_->loading.end - load_rounding || parts_->heat.is_complete(state.heat);
+  return state.load >= parts_->loading.end - load_rounding || parts_->heat->is_complete(state.heat);
 }
 
 StepReport FractureRun::report_of(const FractureState& start) {
@@ -261,18 +252,18 @@ OutputFields FractureRun::output(const FractureState& state) {
                       .driving_energy = state.driving_energy,
                       .fracture_energy_density = staggered.surface_energy_density(state),
                       .traction = staggered.momentum().balance().tractions(state.displacement)};
-  if (model().is_finite_strain()) parts_->show_finite_strain(mechanics, state, fields);
+  staggered.stiffness().show(mechanics, state, parts_->unknowns.plane_normal, fields);
   if (parts_->unknowns.plane_stress) fields.plane_stress_normal = parts_->unknowns.plane_normal;
   fields.interfaces = staggered.faces().output(staggered.momentum().balance(), state);
   fields.history = staggered.stiffness().output(state.histories);
-  parts_->heat.show(state.heat, fields.history);
+  parts_->heat->show(state.heat, fields.history);
   staggered.fatigue().show(state.fatigue, fields.history);
   return fields;
 }
 
 std::vector<HeatRow> FractureRun::warm_by_cycles(const FractureState& state, double time, Index n,
                                                  CellField<double>& rise) {
-  return parts_->heat.warm_by_cycles(state.heat, time, n, rise);
+  return parts_->heat->warm_by_cycles(state.heat, time, n, rise);
 }
 
 std::vector<std::string> FractureRun::interface_warnings() const {

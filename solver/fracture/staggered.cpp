@@ -26,14 +26,15 @@ Staggered::Staggered(const Mesh& mesh, const FractureModel& model, const Unknown
       settings_(settings),
       momentum_(mesh, unknowns, settings.linear),
       stiffness_(make_cell_stiffness(mesh, model)),
+      strength_(make_body_strength(mesh, model, *stiffness_)),
       temperature_(mesh, model),
       faces_(mesh, model, unknowns),
       damage_(mesh, model, unknowns.plane_normal),
-      fatigue_(mesh, model),
+      fatigue_(make_body_fatigue(mesh, model)),
       way_(stiffness_->descends() ? Relaxation::Way::momentum : Relaxation::Way::secant),
       has_newton_(way_ == Relaxation::Way::momentum && !stiffness_->depends_on_strain() && !faces_.any() &&
                   !model.has_eigenstrain() && CoupledNewton::suits(mesh, unknowns)) {
-  if (model.is_finite_strain()) stiffness_->set_own_sides(momentum_.own_sides_at_finite_strain());
+  stiffness_->prepare(momentum_);
 }
 
 StepOutcome Staggered::solve_step(const FractureState& start, FractureState& state, const StepLimits& limits,
@@ -42,9 +43,9 @@ StepOutcome Staggered::solve_step(const FractureState& start, FractureState& sta
   faces_.start_step(limits.duration);
   telling_ = {.watch = watch, .last = {.step = state.step, .load = state.load}, .after = telling_.after};
   momentum_.start_afresh();  // as a restarted run does
-  if (model_.has_strength() || model_.has_eigenstrain()) stiffness_->start_from(start, 0.0);
-  set_toughness(start);
-  const StrengthDrive strength_before = strength_drive_of(start);
+  stiffness_->start_from(start, 0.0);
+  fatigue_->set_toughness(start, damage_);
+  strength_->begin(start, [&] { return strength_seen(start); });
   const FreeStrained strained_before = free_strained(start);
   stiffness_->start_from(start, limits.duration);
   stiffness_->hold(state);
@@ -71,55 +72,29 @@ StepOutcome Staggered::solve_step(const FractureState& start, FractureState& sta
   outcome.share = residual_share(state, energies);
   outcome.collapsed = outcome.converged && has_collapsed(outcome.share);
   outcome.energy.viscous_dissipation = damage_.viscous_dissipation(state.damage);
-  outcome.energy.strength_dissipation =
-      strength_dissipation(mesh_, model_, strength_before, strength_, start.damage, state.damage);
+  outcome.energy.strength_dissipation = strength_->dissipation(start.damage, state.damage);
   outcome.energy.plastic_dissipation = stiffness_->plastic_dissipation(start, state);
   outcome.energy.eigenstrain_work = eigenstrain_work(strained_before, free_strained(state));
-  accumulate_fatigue(state);
+  fatigue_->end_step(of_cells_.driving, damage_, state);
   return outcome;
 }
 
-void Staggered::set_toughness(const FractureState& state) {
-  if (fatigue_.any()) damage_.set_toughness_factor(fatigue_.factors(state.fatigue), state.damage);
-}
-
-void Staggered::accumulate_fatigue(FractureState& state) {
-  if (!fatigue_.any()) return;
-  fatigue_.accumulate(of_cells_.driving, damage_.stiffness_damage().of(state.damage), state.fatigue);
-  lower_toughness(state);
-}
-
-void Staggered::jump(double cycles, FractureState& state) {
-  set_toughness(state);
-  fatigue_.jump(cycles, state);
-  lower_toughness(state);
-}
-
-// The fall of the toughness takes surface energy from the damage that is there; it has been dissipated.
-void Staggered::lower_toughness(FractureState& state) {
-  if (fatigue_.factors(state.fatigue) == damage_.toughness_factor()) return;
-  damage_.renewed_fracture_energy(state.damage);
-  const CellField<double> before = damage_.fracture_energy_density(state.damage);
-  set_toughness(state);
-  const CellField<double> after = damage_.fracture_energy_density(state.damage);
-  parallel_for(mesh_.n_cells(), [&](Index c) { state.fatigue.spent[c] += before[c] - after[c]; });
-}
+void Staggered::jump(double cycles, FractureState& state) { fatigue_->jump(cycles, damage_, state); }
 
 double Staggered::surface_energy(const FractureState& state) {
-  set_toughness(state);
-  return damage_.fracture_energy(state.damage) + fatigue_.spent_energy(state.fatigue);
+  fatigue_->set_toughness(state, damage_);
+  return damage_.fracture_energy(state.damage) + fatigue_->spent_energy(state.fatigue);
 }
 
 double Staggered::renewed_surface_energy(const FractureState& state) {
-  set_toughness(state);
-  return damage_.renewed_fracture_energy(state.damage) + fatigue_.spent_energy(state.fatigue);
+  fatigue_->set_toughness(state, damage_);
+  return damage_.renewed_fracture_energy(state.damage) + fatigue_->spent_energy(state.fatigue);
 }
 
 CellField<double> Staggered::surface_energy_density(const FractureState& state) {
-  set_toughness(state);
+  fatigue_->set_toughness(state, damage_);
   CellField<double> density = damage_.fracture_energy_density(state.damage);
-  if (fatigue_.any())
-    for (Index c = 0; c < mesh_.n_cells(); ++c) density[c] += state.fatigue.spent[c];
+  fatigue_->add_spent(state.fatigue, density);
   return density;
 }
 
@@ -190,35 +165,30 @@ Staggered::Energies Staggered::update_driving_energy(const FractureState& start,
   energies.interfaces = faces_.advance(momentum_.balance(), state.displacement, start.interfaces, state.interfaces);
   energies.stored += energies.interfaces;
   energies.torn = faces_.dissipated(faces_.virgin_histories(), state.interfaces);
-  strength_ = strength_drive(mesh_, model_, *stiffness_, mechanics, state, of_cells_.driving);
+  strength_->see(mechanics, state, of_cells_.driving);
   energies.residual = drive(start, state, 1.0);
   if (settles) energies.unsettled += stiffness_->follow(mechanics, state);
   return energies;
 }
 
-StrengthDrive Staggered::strength_drive_of(const FractureState& state) {
-  if (!model_.has_strength()) return {};
+BodyStrength::Seen Staggered::strength_seen(const FractureState& state) {
   degrade(state);
-  const CellMechanics mechanics = momentum_.balance().mechanics(
+  CellMechanics mechanics = momentum_.balance().mechanics(
       state.displacement, MomentumOperator::Wanted::without_gradient, stiffness_->degradable_part(state));
-  of_cells_ = stiffness_->energies(mechanics, state);
-  return strength_drive(mesh_, model_, *stiffness_, mechanics, state, of_cells_.driving);
+  CellField<double> psi_plus = stiffness_->energies(mechanics, state).driving;
+  return {std::move(mechanics), std::move(psi_plus)};
 }
 
 // The driving energy of the last equilibrium with its displacements times `scale`. Returns what the residual stiffness
 // stores [J].
 double Staggered::drive(const FractureState& start, FractureState& state, double scale) {
   const bool history = model_.irreversibility == Irreversibility::history;
-  if (strength_.force.size() > 0) {
-    CellField<double> force(mesh_.n_cells());
-    parallel_for(mesh_.n_cells(), [&](Index c) { force[c] = scale * strength_.force[c]; });
-    damage_.set_driving_force(std::move(force));
-  }
+  strength_->give(scale, [this](CellField<double> force) { damage_.set_driving_force(std::move(force)); });
   return parallel_sum(mesh_.n_cells(), [&](Index c) {
     const double psi = scale * scale * of_cells_.driving[c];
-    const double opening = strength_.closed.size() > 0 ? psi - scale * scale * strength_.closed[c] : psi;
+    const double opening = strength_->opening(c, psi, scale);
     state.driving_energy[c] = history ? std::max(opening, start.driving_energy[c]) : opening;
-    return stiffness_->residual_energy(c, psi, of_cells_.idle.size() > 0 ? of_cells_.idle[c] : 0.0, state);
+    return stiffness_->residual_energy(c, psi, of_cells_.idle[c], state);
   });
 }
 
@@ -236,8 +206,7 @@ bool Staggered::solve_damage(const FractureState& start, const FractureState& st
   if (!of_cells_.law || model_.irreversibility == Irreversibility::history)
     return damage_.solve(state.driving_energy, lower, tolerance, d).converged;
   const DrivingLaw law = [&](Index c, double at) {
-    const bool is_closed = strength_.closed.size() > 0 && strength_.closed[c] > 0.0;
-    return is_closed ? DrivingAt{} : of_cells_.law(c, at);
+    return strength_->is_closed(c) ? DrivingAt{} : of_cells_.law(c, at);
   };
   return damage_.solve(law, lower, tolerance, d).converged;
 }

@@ -5,8 +5,8 @@
 #include "solver/fracture/cells/cell_stiffness.h"
 #include "solver/fracture/cells/cell_temperature.h"
 #include "solver/fracture/cells/strength_drive.h"
+#include "solver/fracture/damage/body_fatigue.h"
 #include "solver/fracture/damage/damage_equation.h"
-#include "solver/fracture/damage/fatigue_cells.h"
 #include "solver/fracture/equilibrium/cohesive_newton.h"
 #include "solver/fracture/equilibrium/cohesive_path.h"
 #include "solver/fracture/equilibrium/coupled_newton.h"
@@ -52,7 +52,7 @@ class Staggered {
   const CellStiffness& stiffness() const { return *stiffness_; }
   const CellTemperature& temperature() const { return temperature_; }
   const CohesiveFaces& faces() const { return faces_; }
-  const FatigueCells& fatigue() const { return fatigue_; }
+  const BodyFatigue& fatigue() const { return *fatigue_; }
   /// Jumps over so many cycles of the load, with what that dissipates.
   void jump(double cycles, FractureState& state);
   StageClock& clock() { return clock_; }
@@ -97,18 +97,12 @@ class Staggered {
     double residual = 0.0;    // the part of it that the residual stiffness has [J]
     double unsettled = 0.0;   // error of it by stiffnesses that have not settled [J]
   };
-  /// Gives the damage equation the toughness that fatigue has left in a state.
-  void set_toughness(const FractureState& state);
-  /// Fatigue of the step that ends with this state in equilibrium.
-  void accumulate_fatigue(FractureState& state);
-  /// Goes from the toughness that the damage equation has to that of the state's fatigue.
-  void lower_toughness(FractureState& state);
   /// Updates the driving energy from the equilibrium. With `settles` the stiffness may follow the strain.
   Energies update_driving_energy(const FractureState& start, FractureState& state, bool settles);
   double drive(const FractureState& start, FractureState& state, double scale);
   ResidualShare residual_share(const FractureState& state, const Energies& energies) const;
-  /// Driving force of a strength model at the equilibrium of this state; empty without.
-  StrengthDrive strength_drive_of(const FractureState& state);
+  /// What a strength model sees of the equilibrium of this state.
+  BodyStrength::Seen strength_seen(const FractureState& state);
   FreeStrained free_strained(const FractureState& state);
   bool solve_damage(const FractureState& start, const FractureState& state, CellField<double>& d);
   struct PathLimit {
@@ -124,16 +118,16 @@ class Staggered {
   StaggeredSettings settings_;
   MomentumSolver momentum_;
   std::unique_ptr<CellStiffness> stiffness_;
+  std::unique_ptr<BodyStrength> strength_;
   CellTemperature temperature_;
   CohesiveFaces faces_;
   DamageEquation damage_;
-  FatigueCells fatigue_;
+  std::unique_ptr<BodyFatigue> fatigue_;
   Relaxation::Way way_;
   bool has_newton_;  // the response to which is smooth enough for it
   StageClock clock_;
   Telling telling_;
-  CellEnergies of_cells_{};   // of the last equilibrium, as
-  StrengthDrive strength_{};  // this
+  CellEnergies of_cells_{};  // of the last equilibrium
 };
 
 }  // namespace pfdm

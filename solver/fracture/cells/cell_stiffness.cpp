@@ -39,7 +39,6 @@ double CellStiffness::residual_energy(Index cell, double psi_plus, double idle, 
 }
 
 double CellStiffness::plastic_dissipation(const FractureState& from, const FractureState& to) const {
-  if (!has_histories()) return 0.0;
   return parallel_sum(mesh_.n_cells(), [&](Index c) { return plastic_dissipation(c, from, to); });
 }
 

@@ -23,7 +23,7 @@ enum class BalanceIs : char { linear, convex, finite };
 struct CellEnergies {
   CellField<double> driving;  ///< psi_plus, the derivative of a cell's energy by the stiffness factor g [J/m^3]
   CellField<double> stored;   ///< [J]
-  CellField<double> idle{};   ///< degraded by damage which it does not drive [J/m^3]; empty: none
+  CellField<double> idle;     ///< degraded by damage which it does not drive [J/m^3]
   DrivingLaw law{};           ///< psi_plus at any damage; empty where it is `driving` at any
 };
 
@@ -37,8 +37,9 @@ class CellStiffness {
   /// Begins a load step, which takes `duration` [s]: clears the memory of how the strains moved in the previous one.
   /// `shift`: a_T of every cell (temperature_shift.h); empty: 1.
   virtual void start_step(double duration, const CellField<double>& shift = {});
-  /// Names the cells of the sides that have a gradient of their own at finite strain; before virgin_histories().
-  virtual void set_own_sides(std::vector<Index>) {}
+  /// Prepares the balance for its laws, and takes from it which sides have a gradient of their own at finite strain;
+  /// before all else.
+  virtual void prepare(MomentumSolver&) {}
   virtual CellHistories virgin_histories() const { return {}; }
   /// The numbers of the histories that results show.
   virtual std::vector<OutputHistory> output(const CellHistories&) const { return {}; }
@@ -95,10 +96,9 @@ class CellStiffness {
   virtual double plastic_dissipation(Index cell, const FractureState& from, const FractureState& to) const = 0;
   /// Stress of the undamaged material [Pa], on which strength depends: at finite strain Biot's.
   virtual Tensor undamaged_stress(Index cell, const CellMechanics& mechanics, const FractureState& state) const = 0;
-  /// F of a cell, with the stretch across a plate in plane stress, and Cauchy's stress [Pa].
-  virtual Tensor deformation(Index cell, const CellMechanics& mechanics, const FractureState& state) const = 0;
-  virtual Tensor cauchy_stress(Index cell, const CellMechanics& mechanics, const FractureState& state,
-                               const Vector& plane_normal) const = 0;
+  /// Puts strain and stress of the results where they are not those of small strain, which the fields have: F of the
+  /// cells, with the stretch across a plate in plane stress, Green's strain and Cauchy's stress [Pa].
+  virtual void show(const CellMechanics&, const FractureState&, const Vector&, OutputFields&) const {}
 
  protected:
   double factor(Index cell, double d) const;  // g, the residual stiffness included

@@ -1,6 +1,6 @@
 #include "solver/fracture/cells/finite_cells.h"
 
-#include "physics/elasticity/plane_stress.h"
+#include "solver/fracture/cells/finite_sheets.h"
 #include "solver/parallel.h"
 
 #include <algorithm>
@@ -9,7 +9,6 @@
 namespace pfdm {
 namespace {
 
-constexpr double least_thickness = 1e-4;  // of a sheet, over that at rest: laws of principal stretches end at 0
 // Shear stiffness of the faces of closed cracks over the bulk modulus (of W_m). Such a crack has no shear
 // stiffness of its own. Where faces have none either, the displacements beside them are arbitrary, and the tractions
 // turn with them: Newton's method does not end on prisms, tetrahedra and polyhedra (solver/fracture/staggered.md).
@@ -29,7 +28,7 @@ double moderate_bulk_modulus(const HyperelasticMaterial& material) {
 }
 
 CellField<const HyperelasticMaterial*> hyperelastic_of(const Mesh& mesh, const FractureModel& model) {
-  CellField<const HyperelasticMaterial*> materials(model.is_finite_strain() ? as_size(mesh.n_cells()) : 0, nullptr);
+  CellField<const HyperelasticMaterial*> materials(mesh.n_cells(), nullptr);
   for (Index c = 0; c < materials.size(); ++c)
     materials[c] = dynamic_cast<const HyperelasticMaterial*>(model.in_cell(mesh, c).material.get());
   return materials;
@@ -39,13 +38,10 @@ CellField<const HyperelasticMaterial*> hyperelastic_of(const Mesh& mesh, const F
 
 FiniteCells::FiniteCells(const Mesh& mesh, const FractureModel& model)
     : mesh_(mesh), model_(model), material_(hyperelastic_of(mesh, model)), histories_(mesh, material_, model) {
-  if (!any()) return;
   using Kind = BoundaryCondition::Kind;
   for (const BoundaryCondition& on : model.boundary)
-    if (on.kind == Kind::plane || on.kind == Kind::plane_stress) {
+    if (on.kind == Kind::plane || on.kind == Kind::plane_stress)
       plane_normal_ = mesh.face_area[mesh.patch(on.patch).first_face].normalized();
-      if (on.kind == Kind::plane_stress) across_ = plane_normal_;
-    }
   const std::size_t n = mesh.n_cells();
   split_ = CellField<const FiniteSplit*>(n, &finite_split("none"));
   for (Index c = 0; c < mesh.n_cells(); ++c) {
@@ -101,17 +97,10 @@ FreeDeformation FiniteCells::free_deformation(Index cell, const CellMechanics& m
   return eigenstrain.size() > 0 ? FreeDeformation(to_tensor(eigenstrain[cell])) : FreeDeformation();
 }
 
-// F_e - 1; of a plate within its plane.
-Tensor FiniteCells::elastic(const Tensor& H, const FreeDeformation& free) const {
-  const Tensor elastic = free.elastic(H);
-  return is_plane_stress() ? (elastic - across_.dot(elastic * across_) * across_ * across_.transpose()).eval()
-                           : elastic;
-}
-
 // In the stiffness of faces J*/J^2 replaces 1/J_e^2 (FiniteLaw::swelling), and lambda/J* replaces lambda.
 FiniteLaw FiniteCells::law(FinitePlace at, const Tensor& H, const Degraded& left, const FreeDeformation& free) const {
   const Tensor F_e = elastic(H, free);
-  FiniteLaw law = is_plane_stress() ? plane_stress_law(at, F_e, left) : solid_law(at, F_e, left);
+  FiniteLaw law = elastic_law(at, F_e, left);
   if (free.is_none()) return law;
   const double mean = free.inverse().squaredNorm() / 3.0;  // of m.m
   law.stress = free.stress(law.stress);
@@ -146,7 +135,7 @@ void FiniteCells::add_branches(FinitePlace at, const Tensor& H, const FiniteShar
   law.pressure_left = (lambda + 2.0 / 3.0) * histories_.volume_left(at.cell);
 }
 
-FiniteLaw FiniteCells::solid_law(FinitePlace at, const Tensor& H, const Degraded& left) const {
+FiniteLaw FiniteCells::elastic_law(FinitePlace at, const Tensor& H, const Degraded& left) const {
   const Index cell = at.cell;
   const HyperelasticMaterial& material = *material_[cell];
   const double g = left.g, kept = keeps_compression(cell) ? left.closure : 0.0;
@@ -178,61 +167,6 @@ FiniteLaw FiniteCells::solid_law(FinitePlace at, const Tensor& H, const Degraded
   return law;
 }
 
-// The stiffness of the faces is that of an incompressible sheet at F = 1, (3 mu c c^T + mu)/h, c being the cofactor
-// within the plane.
-FiniteLaw FiniteCells::plane_stress_law(FinitePlace place, const Tensor& H, const Degraded& left) const {
-  const Index cell = place.cell;
-  const double g = left.g;
-  const FiniteShares by = finite_shares(*material_[cell], g);
-  const Tensor nn = across_ * across_.transpose();
-  const PotentialAt at = damaged(cell, parts(place, thinned(place, H, left), left.closure), by, g);
-  IsotropicElasticity whole = material_[cell]->elasticity();
-  const double of_branches = histories_.has(cell) ? histories_.modulus(cell) : 0.0;
-  whole.mu += of_branches;
-  whole.lambda -= 2.0 / 3.0 * of_branches;
-  const IsotropicElasticity sound = plane_stress(whole);
-  const double w = by.moderate.value / g;
-  FiniteLaw law{.stress = at.stress, .A = at.tangent, .face = {.lambda = 0.0, .mu = g * sound.mu}};
-  law.swelling = w * (sound.lambda + sound.mu) / sound.mu;
-  if (histories_.has(cell)) law.memory = {.share = by.moderate.value, .lambda = 0.0};
-  law.sound_share = sound.mu / material_[cell]->elasticity().mu;
-  const Components pull = at.tangent * to_components(nn), thin = at.tangent.transpose() * to_components(nn);
-  const double stiffness = contract(nn, from_components(pull));
-  if (std::abs(contract(nn, at.stress)) <= 1e-6 * g * sound.mu) law.A -= pull * thin.transpose() / stiffness;
-  return law;
-}
-
-// With the stretch across a plate at which there is no stress across it, or the least thickness: of a network, which
-// pulls at any, and of cells turned inside out.
-Tensor FiniteCells::thinned(FinitePlace place, const Tensor& H, const Degraded& left) const {
-  if (!is_plane_stress()) return H;
-  const Index cell = place.cell;
-  const double g = left.g;
-  constexpr Index most_steps = 80;
-  constexpr double rounding = 1e-15;
-  const FiniteShares by = finite_shares(*material_[cell], g);
-  const Tensor nn = across_ * across_.transpose();
-  double strain = 0.0;
-  for (Index k = 0; k < most_steps; ++k) {
-    const PotentialAt at = damaged(cell, parts(place, H + strain * nn, left.closure), by, g);
-    const double stiffness = contract(nn, from_components(at.tangent * to_components(nn)));
-    const double next = std::max(strain - contract(nn, at.stress) / stiffness, least_thickness - 1.0);
-    const bool there = std::abs(next - strain) <= rounding * (std::abs(strain) + H.norm());
-    strain = next;
-    if (there) break;
-  }
-  return H + strain * nn;
-}
-
-Tensor FiniteCells::thinned_elastic(Index cell, const CellMechanics& mechanics, const Degraded& left) const {
-  return thinned({cell}, elastic(mechanics.gradient[cell], free_deformation(cell, mechanics)), left);
-}
-
-Tensor FiniteCells::thinned(Index cell, const CellMechanics& mechanics, const Degraded& left) const {
-  if (!is_plane_stress()) return mechanics.gradient[cell];
-  return free_deformation(cell, mechanics).total(thinned_elastic(cell, mechanics, left));
-}
-
 void FiniteCells::advance(const CellMechanics& mechanics, const CellField<Degraded>& left, CellHistories& to) {
   if (mechanics.eigenstrain.size() > 0) free_volume_ = CellField<double>(mesh_.n_cells(), 1.0);
   parallel_for(count_of(mechanics.gradients_of_laws), [&](Index k) {
@@ -246,6 +180,11 @@ void FiniteCells::advance(const CellMechanics& mechanics, const CellField<Degrad
     const double change = has_volume ? free.elastic_change(mechanics.volume_change[k]) : 0.0;
     histories_.advance_gaps(k, mechanics.gaps, change, to);
   });
+}
+
+std::unique_ptr<FiniteCells> make_finite_cells(const Mesh& mesh, const FractureModel& model) {
+  if (model.is_plane_stress()) return std::make_unique<FiniteSheets>(mesh, model);
+  return std::make_unique<FiniteCells>(mesh, model);
 }
 
 }  // namespace pfdm

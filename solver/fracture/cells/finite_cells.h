@@ -17,8 +17,7 @@
 // damage equation takes its derivative at every d (driving_law.h). The driving energy of what the faces add is exact
 // where that is proportional to g.
 //
-// Plane stress: F has the stretch across the plate at which the damaged cell has no stress across it, and the tangent
-// is condensed accordingly. No pressure is needed.
+// Plates in plane stress: finite_sheets.h.
 //
 // Cells that expand, swell or shrink (eigenstrains): F above is the elastic part F_e of F = F_e F*, and energies are J*
 // times those of F_e per reference volume (physics/materials/free_deformation.h). A cell's pressure acts as without, on
@@ -38,6 +37,7 @@
 #include "solver/fracture/model/state.h"
 #include "solver/momentum/solution/momentum_solver.h"
 
+#include <memory>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -46,9 +46,12 @@ namespace pfdm {
 
 class FiniteCells {
  public:
+  /// Of a model of finite strain.
   FiniteCells(const Mesh& mesh, const FractureModel& model);
+  virtual ~FiniteCells() = default;
+  FiniteCells(const FiniteCells&) = delete;
+  FiniteCells& operator=(const FiniteCells&) = delete;
 
-  bool any() const { return material_.size() > 0; }
   bool has_pressure(Index cell) const { return material_[cell]->pressure_modulus() > 0.0; }
   /// Whether the driving energy is nearly the derivative of the discrete one: a pressure is lost faster than the
   /// stiffness, and branches dissipate.
@@ -82,7 +85,9 @@ class FiniteCells {
   DrivingAt driving_energy(Index cell, const FiniteEnergies& at, double g) const;
 
   /// The mean gradient H with the stretch across a plate at which it has no stress across it; else H.
-  Tensor thinned(Index cell, const CellMechanics& mechanics, const Degraded& left) const;
+  virtual Tensor thinned(Index cell, const CellMechanics& mechanics, const Degraded&) const {
+    return mechanics.gradient[cell];
+  }
 
   /// Biot stress [Pa] of the undamaged material at the mean gradient; pressures that damage has relaxed count as they
   /// are.
@@ -98,7 +103,7 @@ class FiniteCells {
   Tensor cauchy_stress(Index cell, const CellMechanics& mechanics, const Degraded& left,
                        const Vector& plane_normal) const;
 
- private:
+ protected:
   // Undamaged, at some F_e - 1 = H: W_m, the network's, c U, that of branches, and where compression does not
   // drive the damage W_c and the share of it that does not: the closure, or with `hybrid` 1 where J of H < 1. `closure`
   // is that of the pressure: with `hybrid` by `change`.
@@ -108,6 +113,23 @@ class FiniteCells {
   };
   Parts parts(FinitePlace at, const Tensor& H, double change, double closure) const;
   Parts parts(FinitePlace at, const Tensor& H, double closure) const { return parts(at, H, volume_change(H), closure); }
+  PotentialAt damaged(Index cell, const Parts& at, const FiniteShares& by, double g) const;
+  const HyperelasticMaterial& material(Index cell) const { return *material_[cell]; }
+  static FreeDeformation free_deformation(Index cell, const CellMechanics& mechanics);
+  Tensor thinned_elastic(Index cell, const CellMechanics& mechanics, const Degraded& left) const {
+    return thinned({cell}, elastic(mechanics.gradient[cell], free_deformation(cell, mechanics)), left);
+  }
+
+ private:
+  // F_e - 1 of H; of a plate within its plane.
+  virtual Tensor elastic(const Tensor& H, const FreeDeformation& free) const { return free.elastic(H); }
+  // The law of F_e - 1 = H.
+  virtual FiniteLaw elastic_law(FinitePlace at, const Tensor& H, const Degraded& left) const;
+  // H with the stretch across a plate at which there is no stress across it.
+  virtual Tensor thinned(FinitePlace, const Tensor& H, const Degraded&) const { return H; }
+  // The deformation gradient for the Cauchy stress.
+  virtual Tensor true_deformation(Index, const Tensor& H, const Degraded&) const { return Tensor::Identity() + H; }
+
   Parts parts(Index cell, const CellMechanics& mechanics, const Tensor& H, double closure) const {
     return parts({cell}, H, change_of(cell, mechanics, H), closure);
   }
@@ -115,16 +137,8 @@ class FiniteCells {
   FiniteEnergies mean_energies(Index cell, const CellMechanics& mechanics, const Parts& at) const;
   Tensor beside_law(Index cell, const CellMechanics& mechanics, const Parts& at, const Tensor& P, double g) const;
   double beside_mean(Index cell, const CellMechanics& mechanics, const Parts& at, double g) const;
-  bool is_plane_stress() const { return !across_.isZero(); }
-  static FreeDeformation free_deformation(Index cell, const CellMechanics& mechanics);
-  Tensor elastic(const Tensor& H, const FreeDeformation& free) const;
-  Tensor thinned_elastic(Index cell, const CellMechanics& mechanics, const Degraded& left) const;
   PotentialAt of_branches(FinitePlace at, const Tensor& H) const;
-  FiniteLaw solid_law(FinitePlace at, const Tensor& H, const Degraded& left) const;
   void add_branches(FinitePlace at, const Tensor& H, const FiniteShares& by, FiniteLaw& law) const;
-  FiniteLaw plane_stress_law(FinitePlace at, const Tensor& H, const Degraded& left) const;
-  Tensor thinned(FinitePlace at, const Tensor& H, const Degraded& left) const;
-  Tensor true_deformation(Index cell, const Tensor& H, const Degraded& left) const;
   Tensor traction_stress(Index cell, const CellMechanics& mechanics, const Degraded& left,
                          const Vector& plane_normal) const;
   bool keeps_compression(Index cell) const { return split_[cell]->keeps_compression; }
@@ -132,16 +146,17 @@ class FiniteCells {
   static double share_left(double share, double kept) { return share + kept * (1.0 - share); }
   // Share of a cell's W_c that the split keeps from the degradation.
   double kept(Index cell, const auto& at) const { return keeps_compression(cell) ? at.closure : 0.0; }
-  PotentialAt damaged(Index cell, const Parts& at, const FiniteShares& by, double g) const;
 
   const Mesh& mesh_;
   const FractureModel& model_;
-  CellField<const HyperelasticMaterial*> material_;  // empty at small strain
-  CellField<const FiniteSplit*> split_;              // empty at small strain
+  CellField<const HyperelasticMaterial*> material_;
+  CellField<const FiniteSplit*> split_;
   FiniteHistories histories_;
   CellField<double> free_volume_;         // J* of viscoelastic cells as they were advanced; empty: 1
-  Vector across_ = Vector::Zero();        // normal of a plate in plane stress
   Vector plane_normal_ = Vector::Zero();  // of a plane mesh
 };
+
+/// Those of a model of finite strain: a body's, or a plate's in plane stress.
+std::unique_ptr<FiniteCells> make_finite_cells(const Mesh& mesh, const FractureModel& model);
 
 }  // namespace pfdm

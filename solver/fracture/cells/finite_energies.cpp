@@ -121,17 +121,6 @@ Tensor FiniteCells::undamaged_biot_stress(Index cell, const CellMechanics& mecha
   return biot_stress(H, whole + share_left(share, kept) * at.pressure.stress);
 }
 
-// The deformation gradient for the Cauchy stress. A broken sheet, a network, has next to no thickness: it counts as
-// thick as a sound one at the same stretch, and where it is turned inside out as thick as at rest.
-Tensor FiniteCells::true_deformation(Index cell, const Tensor& H, const Degraded& left) const {
-  Tensor thin = Tensor::Identity() + thinned({cell}, H, left);
-  if (!is_plane_stress()) return thin;
-  const Tensor nn = across_ * across_.transpose();
-  const bool is_turned = volume_change(H - contract(nn, H) * nn) <= -1.0;
-  const double sound = is_turned ? 1.0 : 1.0 + contract(nn, thinned({cell}, H, Degraded{}));
-  return thin + std::max(sound - contract(nn, thin), 0.0) * nn;
-}
-
 // First Piola-Kirchhoff.
 Tensor FiniteCells::traction_stress(Index cell, const CellMechanics& mechanics, const Degraded& left,
                                     const Vector& plane_normal) const {

@@ -8,20 +8,21 @@ namespace pfdm {
 
 class FiniteStiffness final : public CellStiffness {
  public:
-  FiniteStiffness(const Mesh& mesh, const FractureModel& model) : CellStiffness(mesh, model), cells_(mesh, model) {}
+  FiniteStiffness(const Mesh& mesh, const FractureModel& model)
+      : CellStiffness(mesh, model), cells_(make_finite_cells(mesh, model)) {}
 
-  void set_own_sides(std::vector<Index> cells) override { cells_.set_own_sides(std::move(cells)); }
-  CellHistories virgin_histories() const override { return cells_.histories().virgin_histories(); }
+  void prepare(MomentumSolver& momentum) override { cells_->set_own_sides(momentum.own_sides_at_finite_strain()); }
+  CellHistories virgin_histories() const override { return cells_->histories().virgin_histories(); }
   void start_step(double duration, const CellField<double>& shift = {}) override {
-    cells_.shift_times(shift);
+    cells_->shift_times(shift);
     CellStiffness::start_step(duration, shift);
   }
   void start_from(const FractureState& start, double duration) override {
-    cells_.start_from(start.histories, duration);
+    cells_->start_from(start.histories, duration);
   }
 
   BalanceIs balance_is() const override { return BalanceIs::finite; }
-  bool has_histories() const override { return cells_.histories().any(); }
+  bool has_histories() const override { return cells_->histories().any(); }
   double follow(const CellMechanics& mechanics, FractureState& state) override;
   double integrate(const CellMechanics& mechanics, const FractureState& start, FractureState& state) override;
 
@@ -34,9 +35,8 @@ class FiniteStiffness final : public CellStiffness {
   using CellStiffness::plastic_dissipation;
   double plastic_dissipation(Index cell, const FractureState& from, const FractureState& to) const override;
   Tensor undamaged_stress(Index cell, const CellMechanics& mechanics, const FractureState& state) const override;
-  Tensor deformation(Index cell, const CellMechanics& mechanics, const FractureState& state) const override;
-  Tensor cauchy_stress(Index cell, const CellMechanics& mechanics, const FractureState& state,
-                       const Vector& plane_normal) const override;
+  void show(const CellMechanics& mechanics, const FractureState& state, const Vector& plane_normal,
+            OutputFields& fields) const override;
 
  private:
   void give(const FractureState& state, const CellField<double>& g, MomentumSolver& momentum) const override;
@@ -44,14 +44,14 @@ class FiniteStiffness final : public CellStiffness {
     return {factor(cell, state.damage[cell]), state.closure[cell]};
   }
   FiniteEnergies energies_of(Index cell, const CellMechanics& mechanics, const FractureState& state) const {
-    return cells_.energies(cell, mechanics, left(cell, state), state.histories);
+    return cells_->energies(cell, mechanics, left(cell, state), state.histories);
   }
   // psi_plus at the damage d of a cell, with its derivative by d.
   DrivingAt driving_at(Index cell, const FiniteEnergies& at, double d) const;
   double follow_volume(Index cell, const CellMechanics& mechanics, FractureState& state);
-  bool descends(Index cell) const override { return cells_.descends(cell); }
+  bool descends(Index cell) const override { return cells_->descends(cell); }
 
-  FiniteCells cells_;
+  std::unique_ptr<FiniteCells> cells_;
 };
 
 }  // namespace pfdm

@@ -22,9 +22,8 @@ OutputHistory& output_field(const HistoryField& field, std::size_t n_cells, std:
 }
 
 CellField<const Material*> materials_of(const Mesh& mesh, const FractureModel& model) {
-  const bool any = !model.is_finite_strain() && std::ranges::any_of(model.regions, [](const RegionModel& region) {
-    return region.material != nullptr;
-  });
+  const bool any =
+      std::ranges::any_of(model.regions, [](const RegionModel& region) { return region.material != nullptr; });
   CellField<const Material*> materials(any ? as_size(mesh.n_cells()) : 0, nullptr);
   for (Index c = 0; c < materials.size(); ++c) materials[c] = model.in_cell(mesh, c).material.get();
   return materials;

@@ -90,7 +90,6 @@ HistoryStress SmallStiffness::with_histories(const FractureState& state, const C
 }
 
 double SmallStiffness::integrate(const CellMechanics& mechanics, const FractureState& start, FractureState& state) {
-  if (!materials_.any()) return 0.0;
   return parallel_sum(mesh_.n_cells(), [&](Index c) {
     if (!materials_.has(c)) return 0.0;
     const double wrong = materials_.advance(c, mechanics, start.histories, state.histories);
@@ -100,8 +99,8 @@ double SmallStiffness::integrate(const CellMechanics& mechanics, const FractureS
 
 CellEnergies SmallStiffness::energies(const CellMechanics& mechanics, const FractureState& state) const {
   const std::size_t n = mesh_.n_cells();
-  CellEnergies energies{.driving = CellField<double>(n), .stored = CellField<double>(n)};
-  if (materials_.any()) energies.idle = CellField<double>(n, 0.0);
+  CellEnergies energies{
+      .driving = CellField<double>(n), .stored = CellField<double>(n), .idle = CellField<double>(n, 0.0)};
   parallel_for(mesh_.n_cells(), [&](Index c) {
     if (!materials_.has(c)) {
       energies.driving[c] = driving_energy(c, mechanics);

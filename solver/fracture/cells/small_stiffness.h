@@ -40,12 +40,6 @@ class SmallStiffness final : public CellStiffness {
   using CellStiffness::plastic_dissipation;
   double plastic_dissipation(Index cell, const FractureState& from, const FractureState& to) const override;
   Tensor undamaged_stress(Index cell, const CellMechanics& mechanics, const FractureState& state) const override;
-  Tensor deformation(Index cell, const CellMechanics& mechanics, const FractureState&) const override {
-    return Tensor::Identity() + mechanics.gradient[cell];
-  }
-  Tensor cauchy_stress(Index cell, const CellMechanics& mechanics, const FractureState&, const Vector&) const override {
-    return mechanics.stress[cell];
-  }
 
  private:
   void give(const FractureState& state, const CellField<double>& g, MomentumSolver& momentum) const override;

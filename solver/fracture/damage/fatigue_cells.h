@@ -1,56 +1,49 @@
 #pragma once
-// Fatigue of the cells (physics/damage/fatigue.h): memory, toughness factors, and jumps over cycles of load. alpha_bar
-// grows once with each accepted step, by the growth of alpha over the step. So f is that of the step's start, and with
-// damage that grows the result has an error of first order in the step. While no damage grows steps that end on the
-// peaks of the load are enough.
-//
-// A jump extrapolates alpha_bar of each cell by its growth over the last whole cycle (explicitly), damage and
-// displacement staying as they are; the cycles that follow bring the damage to balance with it. Its length is the
-// largest with which f of no cell falls by more than a tolerance.
+// Fatigue of the cells (physics/damage/fatigue.h): memory and toughness factors. alpha_bar grows once with each accepted
+// step, by the growth of alpha over the step. So f is that of the step's start, and with damage that grows the result
+// has an error of first order in the step. While no damage grows steps that end on the peaks of the load are enough.
 
 #include "mesh/mesh.h"
+#include "solver/fracture/damage/body_fatigue.h"
+#include "solver/fracture/damage/damage_equation.h"
 #include "solver/fracture/model/fracture_model.h"
 #include "solver/fracture/model/state.h"
 
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace pfdm {
 
-class FatigueCells {
+/// Whether the cells of a region tire.
+bool has_fatigue(const RegionModel& region);
+bool has_fatigue(const Mesh& mesh, const FractureModel& model);  ///< those of any
+
+class FatigueCells : public BodyFatigue {
  public:
-  FatigueCells(const Mesh& mesh, const FractureModel& model);
+  FatigueCells(const Mesh& mesh, const FractureModel& model) : mesh_(mesh), model_(model) {}
 
-  bool any() const { return any_; }
-  FatigueState virgin() const;
-  /// f of each cell [-].
-  CellField<double> factors(const FatigueState& fatigue) const;
-  /// Takes the memory to the end of a step, at which psi_plus [J/m^3] is degraded by the damage d.
-  void accumulate(const CellField<double>& psi_plus, const CellField<double>& d, FatigueState& fatigue) const;
-  /// The part of the surface energy that FatigueState::spent counts [J]; exactly 0 while no f has fallen.
-  double spent_energy(const FatigueState& fatigue) const;
+  FatigueState virgin() const override;
+  void set_toughness(const FractureState& state, DamageEquation& damage) const override {
+    damage.set_toughness_factor(factors(state.fatigue), state.damage);
+  }
+  void end_step(const CellField<double>& psi_plus, DamageEquation& damage, FractureState& state) const override;
+  double spent_energy(const FatigueState& fatigue) const override;
+  void add_spent(const FatigueState& fatigue, CellField<double>& density) const override;
 
-  /// The next load at which a step has to end: that of a part of a cycle, or `stop`, another that must not be passed,
-  /// whichever is first. Two that differ by rounding are one, `stop`.
-  double next_stop(double load, double stop) const;
-  /// Takes note of a whole cycle, if one ends at this load and has not been counted.
-  void end_cycle(double load, FatigueState& fatigue) const;
-  /// Number of cycles by which a state may jump: by the tolerance, and so that a whole cycle is left before `stop`, the
-  /// next load that must not be passed. 0: the next step goes on as usual.
-  double cycles_to_jump(const FractureState& state, double stop) const;
-  /// Extrapolates over so many cycles; the load grows by what they take.
-  void jump(double cycles, FractureState& state) const;
+  std::optional<FatigueReport> report(const FractureState& state) const override;
+  std::string remark(FatigueWork& work, const FractureState& state) const override;
+  void show(const FatigueState& fatigue, std::vector<OutputHistory>& fields) const override;
 
-  FatigueReport report(const FractureState& state) const;
-  /// Adds alpha_bar and f to the fields of the output.
-  void show(const FatigueState& fatigue, std::vector<OutputHistory>& fields) const;
+ protected:
+  CellField<double> factors(const FatigueState& fatigue) const;  // f of each cell [-]
+  void lower_toughness(DamageEquation& damage, FractureState& state) const;
+  const Mesh& mesh() const { return mesh_; }
+  const FractureModel& model() const { return model_; }
 
  private:
-  double largest_fall(const FatigueState& fatigue, double cycles) const;  // of f
-
   const Mesh& mesh_;
   const FractureModel& model_;
-  bool any_ = false;
 };
 
 /// Watches the energy account of a body with fatigue. A crack that grows at a peak of the load in a single step gives
@@ -58,9 +51,8 @@ class FatigueCells {
 class FatigueWork {
  public:
   /// The warning after a step to this state: where since the first step that was seen the other energies have
-  /// grown by more than the work, and by a tenth of the largest work so far. Empty without fatigue, and once it has
-  /// been given.
-  std::string remark(const FatigueCells& fatigue, const FractureState& now);
+  /// grown by more than the work, and by a tenth of the largest work so far. Empty once it has been given.
+  std::string remark(const FractureState& now);
 
  private:
   std::optional<EnergyAccount> first_;

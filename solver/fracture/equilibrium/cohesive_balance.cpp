@@ -1,10 +1,8 @@
 // Balance of the faces: member functions of cohesive_faces.h.
 
-#include "physics/elasticity/gradient_stress.h"
 #include "solver/fracture/equilibrium/balanced_separation.h"
 #include "solver/fracture/equilibrium/cohesive_faces.h"
 #include "solver/fracture/equilibrium/resisted_separation.h"
-#include "solver/momentum/finite_strain/finite_tractions.h"
 #include "solver/parallel.h"
 
 #include <Eigen/Eigenvalues>
@@ -17,15 +15,6 @@ namespace pfdm {
 namespace {
 
 constexpr double steepest_resistance = 1e3;  // over the stiffness of the cells beside the face
-
-// w x v = across(n, v) dn, where n turns by dn = w x n.
-Tensor across(const Vector& n, const Vector& v) { return n.dot(v) * Tensor::Identity() - n * v.transpose(); }
-
-// Derivative of c/|c| by c.
-Tensor by_length(const Vector& c) {
-  const Vector n = c.normalized();
-  return (Tensor::Identity() - n * n.transpose()) / c.norm();
-}
 
 /// Without what softens: the symmetric part's negative eigenvalues are zero.
 Tensor convex_part(const Tensor& tangent) {
@@ -46,22 +35,6 @@ void limit_resistance(double most, InterfaceResponse& response) {
 
 }  // namespace
 
-// The law is isotropic: if its normal alone turns by w, its traction changes by w x T - K (w x delta).
-void CohesiveFaces::turn(const Face& face, const MomentumOperator& balance, const Vector& separation,
-                         const InterfaceResponse& at, FaceSpring& spring) const {
-  const Vector c_P = balance.finite()->states().cofactors()[face.P] * face.n,
-               c_N = balance.finite()->states().cofactors()[face.N] * face.n;
-  const Vector sum = c_P.normalized() + c_N.normalized(), n = sum.normalized();
-  const Tensor by_sum = (across(n, at.traction) - at.tangent * across(n, separation)) * by_length(sum);
-  spring.turn_P = by_sum * by_length(c_P);
-  spring.turn_N = by_sum * by_length(c_N);
-  const auto change = [&](Index cell) {
-    const Tensor& F = balance.finite()->states().deformation()[cell];
-    return (cofactor_change(F, F - Tensor::Identity()) * face.n).eval();
-  };
-  spring.offset -= spring.turn_P * change(face.P) + spring.turn_N * change(face.N);
-}
-
 void CohesiveFaces::linearise(const std::vector<Vector>& u, const std::vector<InterfaceHistory>& before,
                               const std::vector<InterfaceHistory>& after, Way way, MomentumSolver& momentum) const {
   std::vector<FaceSpring> springs(faces_.size());
@@ -74,8 +47,7 @@ void CohesiveFaces::linearise(const std::vector<Vector>& u, const std::vector<In
     springs[k] = {.stiffness = stiffness,
                   .offset = response.traction - stiffness * separation,
                   .secant = way == Way::tangent ? response.secant : stiffness};
-    if (way == Way::tangent && momentum.balance().finite() != nullptr)
-      turn(faces_[k], momentum.balance(), separation, response, springs[k]);
+    if (way == Way::tangent) normals_->turn(faces_[k].sides, momentum.balance(), separation, response, springs[k]);
   });
   momentum.set_springs(std::move(springs), bond_);
 }

@@ -2,7 +2,6 @@
 
 #include "physics/error.h"
 #include "physics/quantity_text.h"
-#include "solver/momentum/finite_strain/finite_tractions.h"
 #include "solver/parallel.h"
 
 #include <fmt/format.h>
@@ -21,7 +20,7 @@ constexpr double rigid_stiffness = 1e3;  // over that of the cells beside the fa
 }  // namespace
 
 CohesiveFaces::CohesiveFaces(const Mesh& mesh, const FractureModel& model, const Unknowns& unknowns)
-    : mesh_(mesh), model_(model) {
+    : mesh_(mesh), model_(model), normals_(make_face_normals(model)) {
   if (unknowns.split_faces.empty()) return;
   std::set<Index> seen;
   for (std::size_t s = 0; s < model.interfaces.size(); ++s)
@@ -47,9 +46,7 @@ void CohesiveFaces::add(std::size_t number, const CohesiveSurface& surface, std:
                     surface.name, quantity_text(at.stiffness, "Pa/m"),
                     quantity_text(0.5 * at.strength * at.strength / at.toughness, "Pa/m")));
   faces_.push_back({.surface = number,
-                    .P = mesh_.owner[f],
-                    .N = mesh_.neighbour[f],
-                    .n = mesh_.face_area[f].normalized(),
+                    .sides = {.P = mesh_.owner[f], .N = mesh_.neighbour[f], .n = mesh_.face_area[f].normalized()},
                     .area = mesh_.face_area[f].norm(),
                     .at = at});
 }
@@ -64,7 +61,7 @@ std::vector<Vector> CohesiveFaces::held_forces(const std::vector<InterfaceHistor
     const Face& face = faces_[k];
     const BranchTractions& q = histories[k].branch;
     forces[k] =
-        face.area * (law(face).own_law ? law(face).respond(face.at, face.n, Vector::Zero(), histories[k]).traction
+        face.area * (law(face).own_law ? law(face).respond(face.at, face.sides.n, Vector::Zero(), histories[k]).traction
                                        : std::accumulate(q.begin(), q.end(), Vector(Vector::Zero())));
   });
   return forces;
@@ -90,13 +87,6 @@ double CohesiveFaces::bond(Index face) const {
     return h / model_.in_cell(mesh_, c).elasticity.constrained_modulus();
   };
   return 1.0 / (softness(mesh_.owner[face]) + softness(mesh_.neighbour[face]));
-}
-
-Vector CohesiveFaces::normal(const Face& face, const MomentumOperator& balance) const {
-  if (balance.finite() == nullptr) return face.n;
-  const Vector c_P = balance.finite()->states().cofactors()[face.P] * face.n,
-               c_N = balance.finite()->states().cofactors()[face.N] * face.n;
-  return (c_P.normalized() + c_N.normalized()).normalized();
 }
 
 double CohesiveFaces::advance(const MomentumOperator& balance, const std::vector<Vector>& u,
@@ -173,7 +163,7 @@ double CohesiveFaces::dissipation_growth(const MomentumOperator& balance, const 
                                          const std::vector<Vector>& change) const {
   return parallel_sum(count_of(faces_), [&](Index k) {
     const Face& face = faces_[k];
-    const InterfaceResponse response = law(face).respond(face.at, face.n, balance.separation(k, u), from[k]);
+    const InterfaceResponse response = law(face).respond(face.at, face.sides.n, balance.separation(k, u), from[k]);
     return face.area * response.dissipation_slope.dot(balance.separation(k, change));
   });
 }

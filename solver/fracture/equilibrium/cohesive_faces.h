@@ -15,10 +15,12 @@
 // Where the law falls more steeply than C^-1 the two cells tear a face at a jump, whatever the load does elsewhere. The
 // solution of one face is unique, and the process zone resolved, only with smaller cells (warnings).
 
+#include "solver/fracture/equilibrium/face_normals.h"
 #include "solver/fracture/model/fracture_model.h"
 #include "solver/fracture/model/state.h"
 #include "solver/momentum/solution/momentum_solver.h"
 
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -82,16 +84,13 @@ class CohesiveFaces {
  private:
   struct Face {
     std::size_t surface;
-    Index P, N;  // owner and neighbour
-    Vector n;    // from P to N
+    FaceSides sides;  // owner and neighbour
     double area;
     InterfaceStrength at;
   };
   void add(std::size_t number, const CohesiveSurface& surface, std::size_t k);
   double bond(Index face) const;
-  Vector normal(const Face& face, const MomentumOperator& balance) const;
-  void turn(const Face& face, const MomentumOperator& balance, const Vector& separation, const InterfaceResponse& at,
-            FaceSpring& spring) const;
+  Vector normal(const Face& face, const MomentumOperator& balance) const { return normals_->at(face.sides, balance); }
   InterfaceResponse respond(Index k, const Vector& n, const Vector& separation, const InterfaceHistory& before,
                             const InterfaceHistory& after) const;
   bool has_rate(const Face& face) const { return duration_ > 0.0 && law(face).rate.any(); }
@@ -100,6 +99,7 @@ class CohesiveFaces {
 
   const Mesh& mesh_;
   const FractureModel& model_;
+  std::unique_ptr<FaceNormals> normals_;
   std::vector<Face> faces_;
   std::vector<double> bond_;  // C^-1 of each [Pa/m]
   double duration_ = 0.0;     // of the step [s]

@@ -1,6 +1,6 @@
 // Jumps over cycles of a body with fatigue, against computing every cycle; threads.
 
-#include "solver/fracture/damage/fatigue_cells.h"
+#include "solver/fracture/damage/cycled_fatigue.h"
 #include "solver/parallel.h"
 #include "tests/verification/fatigue_plate.h"
 
@@ -73,7 +73,7 @@ TEST(FatigueJumps, KeepTheirPlaceInTheCycles) {
     const double part = cycle / double(steps), end = 1e7 * cycle;
     const Plate plate{.law = asymptotic, .cycles = {.cycle = cycle, .steps = steps, .jump_tolerance = 0.02}};
     const FractureModel model = model_of(plate, mesh);
-    const FatigueCells cells(mesh, model);
+    const CycledFatigue cells(mesh, model);
     FractureState state;
     state.fatigue = cells.virgin();
     for (double cycles = 0.0; state.load < 0.999 * end; cycles += 999.0) {
@@ -97,7 +97,7 @@ TEST(FatigueJumps, TakeAFrameForTheEndOfItsCycle) {
   const Mesh mesh = mesh_of(1);
   const Plate plate{.law = asymptotic, .cycles = {.cycle = 1.0, .steps = 2, .jump_tolerance = 0.02}};
   const FractureModel model = model_of(plate, mesh);
-  const FatigueCells cells(mesh, model);
+  const CycledFatigue cells(mesh, model);
   for (const double error : {-1e-10, 1e-10}) {
     const double frame = 7.0 + error;
     EXPECT_EQ(cells.next_stop(6.5, frame), frame);

@@ -2,7 +2,7 @@
 // where cells are broken, a sheet with a crack.
 
 #include "solver/fracture/cells/cell_stiffness.h"
-#include "solver/fracture/cells/finite_cells.h"
+#include "solver/fracture/cells/finite_sheets.h"
 #include "tests/verification/cohesive_blocks.h"
 #include "tests/verification/finite.h"
 #include "tests/verification/finite_sheets.h"
@@ -50,7 +50,7 @@ TEST(FinitePlaneStress, OneEnergyDrivesTheDamageAndHasTheStress) {
     for (const double nu : {0.45, 0.497})
       for (const Vector& l : {Vector(1.2, 0.9, 1.0), Vector(4.0, 0.6, 1.0), Vector(2.0, 2.0, 1.0)}) {
         const FractureModel model = damaged_sheet(mesh, law, nu, bent(0.0));
-        const FiniteCells cells(mesh, model);
+        const FiniteSheets cells(mesh, model);
         const Tensor H = Tensor(l.asDiagonal()) + shear - Tensor::Identity();
         const auto stored = [&](const Tensor& at, double g) {
           return cells.stored_energy(0, cells.energies(0, stretched_cell(at), {g}), g) / volume;
@@ -79,7 +79,7 @@ TEST(FinitePlaneStress, TheCauchyStressOfABrokenSheetIsSmall) {
   for (const char* law : {"neo_hookean", "ogden"})
     for (const double nu : {0.45, 0.48, 0.49, 0.497}) {
       const FractureModel model = damaged_sheet(mesh, law, nu, bent(0.0));
-      const FiniteCells cells(mesh, model);
+      const FiniteSheets cells(mesh, model);
       double most = 0.0;
       for (const double d : {0.9, 0.95, 0.97, 0.985, 0.99, 0.995, 1.0})
         for (const Tensor& F : {Tensor(Tensor::Identity()), Tensor(Vector(1.1, 1.0, 1.0).asDiagonal()),
