@@ -59,14 +59,19 @@ bool moves_freely(const FractureCase& fracture) {
   return !fracture.box && !acts_on(fracture.output.curve.patch, fracture.boundary);
 }
 
+/// "of "ymax" along x at the end 0.06 mm; it is free"; `end`: "at the end", with or without the value.
+std::string of_free_patch(const FractureCase& fracture, const std::string& end) {
+  return fmt::format("of \"{}\" along {} {}; it is free", fracture.output.curve.patch,
+                     "xyz"[fracture.output.curve.component], end);
+}
+
 /// "greatest force 27.08 N at 624 um, the end of the curve"
 std::vector<std::string> lines_of_curve(const RunSummary& summary, const FractureCase& fracture,
                                         const CurveUnits& units) {
   if (!summary.figures) return {};
   if (moves_freely(fracture))
-    return {fmt::format("displacement of \"{}\" along {} at the end {}; it is free", fracture.output.curve.patch,
-                        "xyz"[fracture.output.curve.component],
-                        shown_in(units.displacement, summary.figures->final_displacement))};
+    return {"displacement " +
+            of_free_patch(fracture, "at the end " + shown_in(units.displacement, summary.figures->final_displacement))};
   const Axes axes = axes_of(fracture, units);
   const Peak peak = peak_of(summary, fracture, axes);
   const std::string x = fracture.box ? axes.x + " = " : std::string();
@@ -243,8 +248,7 @@ std::vector<HeadFigure> run_figures(const FractureCase& fracture, const CurveUni
   if (summary.figures && moves_freely(fracture)) {
     figures.push_back({.label = "Displacement",
                        .value = shown_in(axes.x_shown, summary.figures->final_displacement),
-                       .note = fmt::format("of \"{}\" along {} at the end; it is free", fracture.output.curve.patch,
-                                           "xyz"[fracture.output.curve.component])});
+                       .note = of_free_patch(fracture, "at the end")});
   } else if (summary.figures) {
     const Peak peak = peak_of(summary, fracture, axes);
     figures.push_back(

@@ -3,8 +3,8 @@
 
 #include "solver/dynamics/base_response.h"
 #include "solver/dynamics/modes.h"
-#include "tests/verification/layers/vibrating_boxes.h"
 #include "tests/verification/support.h"
+#include "tests/verification/vibrations/vibrating_boxes.h"
 
 #include <gtest/gtest.h>
 
