@@ -10,6 +10,7 @@
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
+#include <array>
 #include <cmath>
 #include <sstream>
 
@@ -65,34 +66,21 @@ std::vector<std::string> captions_of(const ReportPage& page) {
   return captions;
 }
 
-TEST(InterfaceFit, FindsTheLineThatTheLawIsAndExportsIt) {
-  const TemporaryCase directory(glued_fit(glue_guess, "profile"));
-  const Straight line = measure(directory);
-  const std::string place = directory.path().string();
-  const Outcome outcome = run({"fit", place});
-  ASSERT_EQ(outcome.status, 0) << outcome.err;
-  const auto fit = nlohmann::json::parse(content_of(directory.results() / "fit.json"));
-  ASSERT_EQ(fit["verdict"], "sound") << fit["reasons"];
-  const double due[] = {line.strength, line.toughness};
-  for (std::size_t k = 0; k < 2; ++k) {
-    const auto& p = fit["parameters"][k];
-    EXPECT_NEAR(p["estimate"].get<double>(), due[k], 1e-3 * due[k]) << p["name"];
-    EXPECT_LT(p["profile"]["lower"].get<double>(), due[k]);
-    EXPECT_GT(p["profile"]["upper"].get<double>(), due[k]);
-  }
-  // Which parameter moves which part of the curve.
+// Which parameter moves which part of the curve; `due`: strength and toughness.
+void expect_sensitivity_of_a_line(const CsvTable& changes, const std::array<double, 2>& due) {
   const auto force_of = [](double u, double strength, double toughness) {
     const double compliance = 2e-3 / 1e9, final_opening = 2.0 * toughness / strength;
     const double opening = (u - compliance * strength) / (1.0 - compliance * strength / final_opening);
     return 1e-6 * strength * (1.0 - opening / final_opening);
   };
-  const CsvTable changes = read_csv(directory.results() / fit["sensitivity_file"].get<std::string>());
   for (const std::size_t at : {std::size_t{10}, std::size_t{40}, std::size_t{70}}) {
     const double u = changes.column("displacement_m")[at], here = force_of(u, due[0], due[1]);
     EXPECT_NEAR(changes.column("change_by_0_N")[at], force_of(u, 1.01 * due[0], due[1]) - here, 3e-4) << u;
     EXPECT_NEAR(changes.column("change_by_1_N")[at], force_of(u, due[0], 1.01 * due[1]) - here, 3e-4) << u;
   }
-  // The page of a fit without a run.
+}
+
+void expect_page_without_a_run(const TemporaryCase& directory, const nlohmann::json& fit) {
   const ReportPage page = page_of(directory, fit["case_hash"]);
   EXPECT_THAT(page.subtitle, HasSubstr("fitted, not run"));
   const Table estimates = table_of(page, "Fit: sound");
@@ -102,21 +90,45 @@ TEST(InterfaceFit, FindsTheLineThatTheLawIsAndExportsIt) {
   EXPECT_EQ(estimates.rows[1][1], shown(1.6e6, "Pa"));
   const double lower = fit["parameters"][1]["profile"]["lower"], upper = fit["parameters"][1]["profile"]["upper"];
   EXPECT_EQ(estimates.rows[2].back(), fmt::format("{} J/m^2 to {} J/m^2", shown(lower), shown(upper)));
-  // The law for another code, without a run.
+}
+
+void expect_law_without_a_run(const std::string& deck, const nlohmann::json& fit, double strength) {
+  const auto& toughness = fit["parameters"][1];
+  const std::string key = "normal_strength = ";
+  const double written = std::stod(deck.substr(deck.find(key) + key.size()));
+  EXPECT_NEAR(written, 1e-6 * strength, 1e-3 * 1e-6 * strength);
+  EXPECT_THAT(one_line(deck), HasSubstr("Source: fitted to 1 curves of case"));
+  EXPECT_THAT(one_line(deck), HasSubstr("verdict sound"));
+  EXPECT_THAT(one_line(deck),
+              HasSubstr(fmt::format("toughness = {:.4g} J/m^2, 95 % interval {:.4g} to {:.4g} by profile",
+                                    toughness["estimate"].get<double>(), toughness["profile"]["lower"].get<double>(),
+                                    toughness["profile"]["upper"].get<double>())));
+  EXPECT_THAT(one_line(deck), HasSubstr("Validity: no run of this case is there"));
+}
+
+TEST(InterfaceFit, FindsTheLineThatTheLawIsAndExportsIt) {
+  const TemporaryCase directory(glued_fit(glue_guess, "profile"));
+  const Straight line = measure(directory);
+  const std::string place = directory.path().string();
+  const Outcome outcome = run({"fit", place});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const auto fit = nlohmann::json::parse(content_of(directory.results() / "fit.json"));
+  ASSERT_EQ(fit["verdict"], "sound") << fit["reasons"];
+  const std::array<double, 2> due{line.strength, line.toughness};
+  for (std::size_t k = 0; k < 2; ++k) {
+    const auto& p = fit["parameters"][k];
+    EXPECT_NEAR(p["estimate"].get<double>(), due[k], 1e-3 * due[k]) << p["name"];
+    EXPECT_LT(p["profile"]["lower"].get<double>(), due[k]);
+    EXPECT_GT(p["profile"]["upper"].get<double>(), due[k]);
+  }
+  expect_sensitivity_of_a_line(read_csv(directory.results() / fit["sensitivity_file"].get<std::string>()), due);
+  expect_page_without_a_run(directory, fit);
   const std::string fitted = (directory.results() / "case.fitted.toml").string();
   const Outcome exported =
       run({"cohesive", fitted, "--export", "moose", "--units", "mm-N-s", "--output", place + "/law"});
   ASSERT_EQ(exported.status, 0) << exported.err;
   const std::string deck = content_of(directory.path() / "law" / "cohesive_law" / "moose.i");
-  const std::string key = "normal_strength = ";
-  const double written = std::stod(deck.substr(deck.find(key) + key.size()));
-  EXPECT_NEAR(written, 1e-6 * line.strength, 1e-3 * 1e-6 * line.strength);
-  EXPECT_THAT(one_line(deck), HasSubstr("Source: fitted to 1 curves of case"));
-  EXPECT_THAT(one_line(deck), HasSubstr("verdict sound"));
-  EXPECT_THAT(one_line(deck),
-              HasSubstr(fmt::format("toughness = {:.4g} J/m^2, 95 % interval {:.4g} to {:.4g} by profile",
-                                    fit["parameters"][1]["estimate"].get<double>(), lower, upper)));
-  EXPECT_THAT(one_line(deck), HasSubstr("Validity: no run of this case is there"));
+  expect_law_without_a_run(deck, fit, line.strength);
   // With a run.
   ASSERT_EQ(run({"run", fitted, "--quiet", "--output", place + "/law"}).status, 0);
   ASSERT_EQ(run({"cohesive", fitted, "--export", "moose", "--output", place + "/law"}).status, 0);

@@ -41,11 +41,15 @@ FitProblem problem_of(Model model, const Data& data, std::vector<FitParameter> p
           .noise_is_known = noise_is_known};
 }
 
+double mean_deviation(const Data& data) {
+  double mean = 0.0;
+  for (const double deviation : data.deviation) mean += deviation / static_cast<double>(data.deviation.size());
+  return mean;
+}
+
 // The largest amplitude: twice what the best fit leaves, whose deviations are in data.
 ResidualPlaces places_of(const Data& data, const FitResult& result) {
-  double scale = 0.0;
-  for (const double deviation : data.deviation) scale += deviation / static_cast<double>(data.deviation.size());
-  return {data.x, data.deviation, 2.0 * scale * result.rms};
+  return {data.x, data.deviation, 2.0 * mean_deviation(data) * result.rms};
 }
 
 std::vector<double> places(int n, double to) {
@@ -54,23 +58,50 @@ std::vector<double> places(int n, double to) {
   return x;
 }
 
+// Of the residuals over their deviations, with a discrepancy of this length, `ratio` times as large as the noise.
+MatrixXd covariance_of(const Data& data, double length, double ratio) {
+  const auto n = std::ssize(data.x);
+  const double scale = mean_deviation(data);
+  MatrixXd C = MatrixXd::Identity(n, n);
+  for (Eigen::Index i = 0; i < n; ++i)
+    for (Eigen::Index j = 0; j < n; ++j)
+      C(i, j) += ratio * ratio * scale * scale / (data.deviation[i] * data.deviation[j]) *
+                 std::exp(-0.5 * std::pow((data.x[i] - data.x[j]) / length, 2));
+  return C;
+}
+
+// A normal distribution of a line's parameters.
+struct Node {
+  VectorXd mean;
+  MatrixXd root;  // of the covariance
+};
+
+std::vector<VectorXd> draws_of(const std::vector<Node>& nodes, std::vector<double> logarithms) {
+  const double best = std::ranges::max(logarithms);
+  for (double& l : logarithms) l = std::exp(l - best);
+  std::discrete_distribution<std::size_t> which(logarithms.begin(), logarithms.end());
+  std::mt19937_64 engine(1);
+  std::normal_distribution<double> normal;
+  std::vector<VectorXd> draws;
+  for (int i = 0; i < 20000; ++i) {
+    const Node& node = nodes[which(engine)];
+    draws.emplace_back(node.mean + node.root * Eigen::Vector2d(normal(engine), normal(engine)));
+  }
+  return draws;
+}
+
 // A line's parameters by generalised least squares with every length, amplitude and noise of a grid finer than the
 // program's: draws from the posterior, with the prior that residual_likelihood.h states.
 std::vector<VectorXd> by_dense_algebra(const Data& data, const ResidualPlaces& where, bool noise_is_known) {
   const auto n = std::ssize(data.x);
   const double range = data.x.back() - data.x.front();
-  double scale = 0.0;
-  for (const double deviation : data.deviation) scale += deviation / static_cast<double>(n);
+  const double scale = mean_deviation(data);
   MatrixXd X(n, 2);
   VectorXd y(n);
   for (Eigen::Index i = 0; i < n; ++i) {
     X.row(i) << 1.0 / data.deviation[i], data.x[i] / data.deviation[i];
     y[i] = data.y[i] / data.deviation[i];
   }
-  struct Node {
-    VectorXd mean;
-    MatrixXd root;  // of the covariance
-  };
   std::vector<Node> nodes;
   std::vector<double> logarithms;
   constexpr int fine = 30;
@@ -78,12 +109,7 @@ std::vector<VectorXd> by_dense_algebra(const Data& data, const ResidualPlaces& w
     for (int b = 0; b <= 2 * fine; ++b) {
       const double length = 0.05 * range * std::pow(20.0, static_cast<double>(a) / fine);
       const double ratio = 0.1 * std::pow(1e4, static_cast<double>(b) / (2 * fine));
-      MatrixXd C = MatrixXd::Identity(n, n);
-      for (Eigen::Index i = 0; i < n; ++i)
-        for (Eigen::Index j = 0; j < n; ++j)
-          C(i, j) += ratio * ratio * scale * scale / (data.deviation[i] * data.deviation[j]) *
-                     std::exp(-0.5 * std::pow((data.x[i] - data.x[j]) / length, 2));
-      const Eigen::PartialPivLU<MatrixXd> lu(C);
+      const Eigen::PartialPivLU<MatrixXd> lu(covariance_of(data, length, ratio));
       const MatrixXd normal = X.transpose() * lu.solve(X);
       const VectorXd mean = normal.inverse() * (X.transpose() * lu.solve(y));
       const double sum = (y - X * mean).dot(lu.solve(y - X * mean));
@@ -97,17 +123,7 @@ std::vector<VectorXd> by_dense_algebra(const Data& data, const ResidualPlaces& w
         if (noise_is_known) break;
       }
     }
-  const double best = std::ranges::max(logarithms);
-  for (double& l : logarithms) l = std::exp(l - best);
-  std::discrete_distribution<std::size_t> which(logarithms.begin(), logarithms.end());
-  std::mt19937_64 engine(1);
-  std::normal_distribution<double> normal;
-  std::vector<VectorXd> draws;
-  for (int i = 0; i < 20000; ++i) {
-    const Node& node = nodes[which(engine)];
-    draws.emplace_back(node.mean + node.root * Eigen::Vector2d(normal(engine), normal(engine)));
-  }
-  return draws;
+  return draws_of(nodes, std::move(logarithms));
 }
 
 // A line through data that are bent, with two stated deviations; the noise known, and not.

@@ -56,21 +56,48 @@ struct Errors {
   Index krylov_iterations = 0;
 };
 
-Errors solve_pressed(const Mesh& mesh, double nu) {
-  const Pressed exact(nu);
-  const auto material = make_hyperelastic("neo_hookean", {.elasticity = {.lambda = exact.lambda, .mu = Pressed::mu}});
+// Moved as the exact solution has it; the top is free along its normal, which fixes the pressure. Keeps a reference.
+std::vector<BoundaryCondition> boundary_of(const Mesh& mesh, const Pressed& exact) {
   std::vector<BoundaryCondition> boundary;
-  for (const Patch& patch : mesh.patches)  // the top is free along its normal, which fixes the pressure
+  for (const Patch& patch : mesh.patches)
     boundary.push_back(moved(patch.name, {true, true, patch.name != "zmax"},
                              [&](const Vector& x, double t) -> Vector { return t * exact.displacement(x); }));
-  const auto normal_stress = [&](const Vector& x) { return exact.stress(x)(2, 2); };
   for (BoundaryCondition& condition : boundary)
     if (condition.patch == "zmax")
       condition.value = [&](const Vector& x, double t) -> Vector {
         const Vector u = t * exact.displacement(x);
         return {u.x(), u.y(), 0.0};
       };
-  const FractureModel model = finite_body(mesh, material, boundary);
+  return boundary;
+}
+
+// On the cells and on the top [N], at a part of the load.
+std::vector<Vector> forces_of(const Mesh& mesh, const Unknowns& unknowns, const Pressed& exact, double load) {
+  std::vector<Vector> force(unknowns.n_nodes(), Vector::Zero());
+  for (Index c = 0; c < mesh.n_cells(); ++c)
+    force[c] = load * mesh.cell_volume[c] * exact.body_force(mesh.cell_centre[c]);
+  const Patch& top = mesh.patch("zmax");
+  for (Index f = top.first_face; f < top.first_face + top.n_faces; ++f)
+    force[unknowns.node_of_face[f]] =
+        load * mesh.face_area[f].norm() * exact.stress(mesh.face_centre[f])(2, 2) * Vector::UnitZ();
+  return force;
+}
+
+// Of all of the stress, the mean included.
+double stress_error(const Mesh& mesh, const CellMechanics& cells, const Pressed& exact) {
+  double wrong = 0.0, whole = 0.0;
+  for (Index c = 0; c < mesh.n_cells(); ++c) {
+    const Tensor P = exact.stress(mesh.cell_centre[c]);
+    wrong += mesh.cell_volume[c] * (cells.stress[c] - P).squaredNorm();
+    whole += mesh.cell_volume[c] * P.squaredNorm();
+  }
+  return std::sqrt(wrong / whole);
+}
+
+Errors solve_pressed(const Mesh& mesh, double nu) {
+  const Pressed exact(nu);
+  const auto material = make_hyperelastic("neo_hookean", {.elasticity = {.lambda = exact.lambda, .mu = Pressed::mu}});
+  const FractureModel model = finite_body(mesh, material, boundary_of(mesh, exact));
   const Unknowns unknowns = place_unknowns(mesh, elastic_body(model));
   const auto stiffness = make_cell_stiffness(mesh, model);
   MomentumSolver momentum(mesh, unknowns);
@@ -81,14 +108,7 @@ Errors solve_pressed(const Mesh& mesh, double nu) {
   constexpr int steps = 4;
   for (int step = 1; step <= steps; ++step) {
     state.load = double(step) / steps;
-    std::vector<Vector> force(unknowns.n_nodes(), Vector::Zero());
-    for (Index c = 0; c < mesh.n_cells(); ++c)
-      force[c] = state.load * mesh.cell_volume[c] * exact.body_force(mesh.cell_centre[c]);
-    const Patch& top = mesh.patch("zmax");
-    for (Index f = top.first_face; f < top.first_face + top.n_faces; ++f)
-      force[unknowns.node_of_face[f]] =
-          state.load * mesh.face_area[f].norm() * normal_stress(mesh.face_centre[f]) * Vector::UnitZ();
-    momentum.set_body_force(std::move(force));
+    momentum.set_body_force(forces_of(mesh, unknowns, exact, state.load));
     stiffness->set(state, momentum);
     const Equilibrium end =
         solve_finite(*stiffness, {.ceiling = 1e-7, .floor = 1e-7, .most_iterations = 3000}, momentum, state);
@@ -100,13 +120,7 @@ Errors solve_pressed(const Mesh& mesh, double nu) {
   errors.u = relative_error(
       mesh, [&](Index c) { return state.displacement[c]; },
       [&](Index c) { return exact.displacement(mesh.cell_centre[c]); }, everywhere);
-  double wrong = 0.0, whole = 0.0;  // of all of the stress, the mean included
-  for (Index c = 0; c < mesh.n_cells(); ++c) {
-    const Tensor P = exact.stress(mesh.cell_centre[c]);
-    wrong += mesh.cell_volume[c] * (cells.stress[c] - P).squaredNorm();
-    whole += mesh.cell_volume[c] * P.squaredNorm();
-  }
-  errors.stress = std::sqrt(wrong / whole);
+  errors.stress = stress_error(mesh, cells, exact);
   return errors;
 }
 

@@ -123,47 +123,50 @@ TEST(VibratingBodies, BeamsInPlaneStrain) {
   EXPECT_NEAR(thin[1] / 21.9941, 1.0, 0.015);
 }
 
+struct PlateRow {
+  const char* name;
+  Vector size;  // over the thickness, as are frequencies, times sqrt(rho/E)
+  std::array<Index, 3> cells;
+  double nu;
+  bool is_cantilever;
+  std::array<double, 6> due;
+  double bound;
+};
+
 // Four layers, cells 0.6 to 2.4 times as long as the plate is thick, modes that bend and that twist; and two layers.
 // The frequencies are those of elements of fourth degree (fifth across the plate), 10 x 10 x 1 of them, which become
 // smaller towards all edges; with 8 x 8 elements they differ by up to 4e-4 (the plate clamped along two edges: 7e-4).
+const PlateRow plates_of_few_layers[] = {{"cantilever, span 15, 25 x 20 x 4 cells, nu = 0.45",
+                                          {15, 12, 1},
+                                          {25, 20, 4},
+                                          0.45,
+                                          true,
+                                          {0.00483135, 0.01268611, 0.0287791, 0.0388451, 0.04397482, 0.05197712},
+                                          0.01},
+                                         {"span 60, 25 x 20 x 4, 0.3",
+                                          {60, 48, 1},
+                                          {25, 20, 4},
+                                          0.3,
+                                          true,
+                                          {0.00029091, 0.00084224, 0.00180058, 0.00292337, 0.00328074, 0.00509486},
+                                          0.015},
+                                         {"span 25, width 10, 40 x 16 x 4, 0.2",
+                                          {25, 10, 1},
+                                          {40, 16, 4},
+                                          0.2,
+                                          true,
+                                          {0.00163648, 0.00863101, 0.01016853, 0.01467521, 0.02719767, 0.0281968},
+                                          0.01},
+                                         {"clamped along two edges, span 14, width 20, 20 x 28 x 4, 0.45",
+                                          {14, 20, 1},
+                                          {20, 28, 4},
+                                          0.45,
+                                          false,
+                                          {0.03486225, 0.03721853, 0.04906601, 0.07419656, 0.0913881, 0.09412784},
+                                          0.01}};
+
 TEST(VibratingBodies, PlatesOfFewLayers) {
-  const struct {
-    const char* name;
-    Vector size;  // over the thickness, as are frequencies, times sqrt(rho/E)
-    std::array<Index, 3> cells;
-    double nu;
-    bool is_cantilever;
-    std::array<double, 6> due;
-    double bound;
-  } rows[] = {{"cantilever, span 15, 25 x 20 x 4 cells, nu = 0.45",
-               {15, 12, 1},
-               {25, 20, 4},
-               0.45,
-               true,
-               {0.00483135, 0.01268611, 0.0287791, 0.0388451, 0.04397482, 0.05197712},
-               0.01},
-              {"span 60, 25 x 20 x 4, 0.3",
-               {60, 48, 1},
-               {25, 20, 4},
-               0.3,
-               true,
-               {0.00029091, 0.00084224, 0.00180058, 0.00292337, 0.00328074, 0.00509486},
-               0.015},
-              {"span 25, width 10, 40 x 16 x 4, 0.2",
-               {25, 10, 1},
-               {40, 16, 4},
-               0.2,
-               true,
-               {0.00163648, 0.00863101, 0.01016853, 0.01467521, 0.02719767, 0.0281968},
-               0.01},
-              {"clamped along two edges, span 14, width 20, 20 x 28 x 4, 0.45",
-               {14, 20, 1},
-               {20, 28, 4},
-               0.45,
-               false,
-               {0.03486225, 0.03721853, 0.04906601, 0.07419656, 0.0913881, 0.09412784},
-               0.01}};
-  for (const auto& row : rows) {
+  for (const PlateRow& row : plates_of_few_layers) {
     std::vector<BoundaryCondition> boundary{clamped("xmin")};
     if (!row.is_cantilever) boundary.push_back(clamped("xmax"));
     const Mesh mesh = box(row.size, row.cells);
