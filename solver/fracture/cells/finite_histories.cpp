@@ -29,7 +29,7 @@ FiniteHistories::FiniteHistories(const Mesh& mesh, const CellField<const Hyperel
 }
 
 void FiniteHistories::set_own_sides(std::vector<Index> cells) {
-  if (any()) cells_of_own_ = std::move(cells);
+  cells_of_own_ = std::move(cells);
 }
 
 CellHistories FiniteHistories::virgin_histories() const {

@@ -102,8 +102,10 @@ class FacesNewton {
         u_(u),
         after_(after),
         way_out_(u),
-        has_rate_(faces.has_rate_laws()),
         is_sound_(faces.are_sound(before)) {}
+  virtual ~FacesNewton() = default;
+  FacesNewton(const FacesNewton&) = delete;
+  FacesNewton& operator=(const FacesNewton&) = delete;
 
   Equilibrium solve(const BalanceWatch& watch) {
     momentum_.set_held_forces(faces_.held_forces(before_));
@@ -113,8 +115,8 @@ class FacesNewton {
       const Equilibrium step = take_step(k, watch);
       const double residual = step.initial_residual;  // at the u that the step began with
       note(step, k == 0);
-      if (whole_.converged && has_rate_) return without_last_step();  // the overstresses belong to it
-      if (whole_.converged || !std::isfinite(step.residual)) return whole_;
+      if (whole_.converged) return converged();
+      if (!std::isfinite(step.residual)) return whole_;
       const bool solved = step.residual < bearable_rest * residual;
       if (residual <= tolerance_.good_enough && !(solved && residual < falls * last)) return without_last_step();
       if (residual > lost * std::max(1.0, whole_.initial_residual)) return without_hope();
@@ -124,28 +126,43 @@ class FacesNewton {
       }
       // After the first solve of sound faces, too: what is left of it takes stiff ones far beyond their strength.
       const bool is_rough = k == 0 && is_sound_ && residual > exact_enough;
-      if (!has_rate_ && (is_rough || way_out_.is_marching() || residual > falls * last)) settle();
+      if (is_rough || way_out_.is_marching() || residual > falls * last) settle_between();
       last = residual;
       way_ = way_out_.next(residual, solved, u_);
       if (cells_) cells_();
     }
-    if (has_rate_) settle();
+    end_in_vain();
     if (cells_) whole_.residual = std::numeric_limits<double>::infinity();
     return whole_;
   }
 
- private:
+ protected:
   void settle() { faces_.settle(before_, momentum_.balance(), u_, after_); }
+  // Has the boundary values of the load, and then settles.
+  void settle_at_load() {
+    momentum_.balance().prescribe(t_, u_);
+    settle();
+  }
+
+  Equilibrium without_last_step() {
+    u_ = std::move(from_);
+    if (cells_) cells_();
+    return whole_;
+  }
+
+ private:
+  virtual void before_step() {}
+  virtual bool keeps_start() const { return cells_ || tolerance_.good_enough > 0.0; }
+  virtual void settle_between() { settle(); }
+  virtual void end_in_vain() {}
+  virtual Equilibrium converged() { return whole_; }
 
   // One linear solve. The residual at its start is that of the true laws; at finite strain to the second order in what
   // `settle` moves.
   Equilibrium take_step(Index k, const BalanceWatch& watch) {
     const bool newton = way_ == CohesiveFaces::Way::tangent;
-    if (has_rate_) {
-      momentum_.balance().prescribe(t_, u_);
-      settle();
-    }
-    if (has_rate_ || cells_ || tolerance_.good_enough > 0.0) from_ = u_;
+    before_step();
+    if (keeps_start()) from_ = u_;
     faces_.linearise(u_, before_, after_, way_, momentum_);
     if (watch && k > 0) watch(k, whole_.residual);
     const Equilibrium step =
@@ -185,12 +202,6 @@ class FacesNewton {
     return whole_;
   }
 
-  Equilibrium without_last_step() {
-    u_ = std::move(from_);
-    if (cells_) cells_();
-    return whole_;
-  }
-
   const CohesiveFaces& faces_;
   const std::vector<InterfaceHistory>& before_;
   double t_;
@@ -201,12 +212,25 @@ class FacesNewton {
   std::vector<InterfaceHistory>& after_;
   WayOut way_out_;
   Circles circles_;
-  bool has_rate_;             // steep where faces begin to move
   bool is_sound_;             // before the step
   std::vector<Vector> from_;  // before the step
   CohesiveFaces::Way way_ = CohesiveFaces::Way::tangent;
   double target_ = 0.0;  // of the residual
   Equilibrium whole_{.converged = false, .iterations = 0, .initial_residual = 0.0, .residual = 0.0};
+};
+
+/// Where tractions depend on the rate of opening, which is steep where faces begin to move: they settle before each
+/// solve, and the overstresses belong to where the last one began.
+class RateFacesNewton final : public FacesNewton {
+ public:
+  using FacesNewton::FacesNewton;
+
+ private:
+  void before_step() override { settle_at_load(); }
+  bool keeps_start() const override { return true; }
+  void settle_between() override {}
+  void end_in_vain() override { settle(); }
+  Equilibrium converged() override { return without_last_step(); }
 };
 
 }  // namespace
@@ -215,6 +239,8 @@ Equilibrium solve_with_faces(const CohesiveFaces& faces, const std::vector<Inter
                              const MomentumSolver::Tolerance& tolerance, const CellLaws& cells,
                              MomentumSolver& momentum, std::vector<Vector>& u, std::vector<InterfaceHistory>& after,
                              const BalanceWatch& watch) {
+  if (faces.has_rate_laws())
+    return RateFacesNewton(faces, before, t, tolerance, cells, momentum, u, after).solve(watch);
   return FacesNewton(faces, before, t, tolerance, cells, momentum, u, after).solve(watch);
 }
 
