@@ -25,6 +25,7 @@ class EndochronicMaterial final : public SmallStrainMaterial {
 
   bool depends_on_rate() const override { return law_.hardening.depends_on_rate(); }
   bool has_linear_volume() const override { return true; }
+  bool flows() const override { return true; }
   std::size_t history_size() const override { return terms + 6 * law_.kernel.size(); }
   std::vector<HistoryField> history_fields() const override {
     return {{"plastic_strain", "1", plastic_strain, 6}, {"plastic_path_length", "1", zeta, 1}};
@@ -43,6 +44,13 @@ class EndochronicMaterial final : public SmallStrainMaterial {
     for (std::size_t r = 0; r < law_.kernel.size(); ++r)
       locked += mandel_at(history, terms + 6 * r).squaredNorm() / (4.0 * law_.kernel[r].C);
     return {.strain = mandel_at(history, plastic_strain), .locked = locked, .dissipated = history[dissipation]};
+  }
+  // What the fading terms of the kernel allow at most.
+  double flow_stress(std::span<const double> history, double rate) const override {
+    double sum = 0.0;
+    for (const auto& [C, alpha] : law_.kernel)
+      if (alpha > 0.0) sum += C / alpha;
+    return 2.0 * law_.hardening(history[zeta], rate).f * sum;
   }
 
  private:

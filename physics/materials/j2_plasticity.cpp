@@ -21,6 +21,7 @@ class J2Plasticity final : public SmallStrainMaterial {
       : SmallStrainMaterial("j2_plasticity", elasticity), law_(law) {}
 
   bool has_linear_volume() const override { return true; }
+  bool flows() const override { return true; }
   std::size_t history_size() const override { return n_numbers; }
   std::vector<HistoryField> history_fields() const override {
     return {{"plastic_strain", "1", plastic_strain, 6}, {"equivalent_plastic_strain", "1", equivalent, 1}};
@@ -56,6 +57,9 @@ class J2Plasticity final : public SmallStrainMaterial {
     return {.strain = strain,
             .locked = 0.5 * law_.isotropic_hardening * p * p + law_.kinematic_hardening * strain.squaredNorm() / 3.0,
             .dissipated = law_.yield_stress * p};
+  }
+  double flow_stress(std::span<const double> history, double) const override {
+    return sqrt_2_3 * (law_.yield_stress + law_.isotropic_hardening * history[equivalent]);
   }
 
  private:

@@ -70,6 +70,12 @@ class Material {
   /// The moduli of a law that is linear and relaxes; null: another one.
   virtual const PronyLaw* relaxing() const { return nullptr; }
 
+  /// Whether it flows: strains beyond the elastic ones stay, as plastic ones.
+  virtual bool flows() const { return false; }
+  /// Share of a small deviatoric stress on top of that of the step which the flow of the step leaves, as of the stress
+  /// itself: 1 without flow, above 0. `history` is that at the end of the step.
+  virtual double left_by_flow(const MaterialStep&, std::span<const double> /*history*/) const { return 1.0; }
+
   virtual std::size_t history_size() const = 0;
   virtual void start(std::span<double> history) const { std::ranges::fill(history, 0.0); }  ///< the virgin state
   virtual std::vector<HistoryField> history_fields() const { return {}; }

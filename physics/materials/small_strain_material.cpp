@@ -1,5 +1,6 @@
 #include "physics/materials/small_strain_material.h"
 
+#include <algorithm>
 #include <numbers>
 
 namespace pfdm {
@@ -47,6 +48,19 @@ MaterialEnergy SmallStrainMaterial::energy(const Tensor& H, std::span<const doub
           .locked = past.locked,
           .dissipated = past.dissipated,
           .inelastic = plastic};
+}
+
+// As a radial return leaves s of s + 2 mu flow. Where the flow has turned against the stress, that at which the law
+// flows counts.
+double SmallStrainMaterial::left_by_flow(const MaterialStep& step, std::span<const double> history) const {
+  if (!flows()) return 1.0;
+  const Mandel flow = inelastic(history).strain - inelastic(step.history).strain;
+  const double length = flow.norm();
+  if (!(length > 0.0)) return 1.0;
+  const double along = flow.dot(to_mandel(stress(step.to, history))) / length;
+  const double rate = step.duration > 0.0 ? length / step.duration : 0.0;
+  const double s = std::max(along, flow_stress(history, rate));
+  return s > 0.0 ? s / (s + 2.0 * elasticity().mu * length) : 1.0;
 }
 
 }  // namespace pfdm

@@ -20,6 +20,7 @@ class SmallStrainMaterial : public Material {
   /// The energy that is locked up drives damage too, and no split keeps it: shear makes it. A split that is not
   /// variational has a driving energy of its own.
   MaterialEnergy energy(const Tensor& H, std::span<const double> history, const EnergySplit& split) const override;
+  double left_by_flow(const MaterialStep& step, std::span<const double> history) const final;
 
  protected:
   struct Step {
@@ -40,6 +41,9 @@ class SmallStrainMaterial : public Material {
     double dissipated = 0.0;  ///< [J/m^3]
   };
   virtual Inelastic inelastic(std::span<const double> history) const = 0;
+  /// Norm of the deviatoric stress, less back stresses, at which a law that flows does so [Pa]; `rate` of its flow
+  /// [1/s].
+  virtual double flow_stress(std::span<const double> /*history*/, double /*rate*/) const { return 0.0; }
 };
 
 }  // namespace pfdm

@@ -32,7 +32,11 @@ CellField<const Material*> materials_of(const Mesh& mesh, const FractureModel& m
 }  // namespace
 
 MaterialCells::MaterialCells(const Mesh& mesh, const FractureModel& model)
-    : mesh_(mesh), model_(model), material_(materials_of(mesh, model)), gaps_(mesh, material_, model) {
+    : mesh_(mesh),
+      model_(model),
+      material_(materials_of(mesh, model)),
+      gaps_(mesh, material_, model),
+      flowing_(mesh, material_, model) {
   any_ = material_.size() > 0;
   if (!any_) return;
   tangent_ = CellField<MandelMatrix>(mesh.n_cells());
@@ -43,6 +47,7 @@ void MaterialCells::start_step(double duration, const CellField<double>& shift) 
   duration_ = duration;
   shift_ = shift;
   gaps_.start_step(duration, shift);
+  flowing_.start_step();
   parallel_for(any_ ? mesh_.n_cells() : 0, [&](Index c) {
     if (has(c)) tangent_[c] = stiffness_matrix(gaps_.has(c) ? gaps_.elasticity(c) : material_[c]->elasticity());
   });
@@ -67,12 +72,15 @@ double MaterialCells::advance(Index cell, const CellMechanics& mechanics, const 
   if (mechanics.eigenstrain.size() > 0) strain -= to_tensor(mechanics.eigenstrain[cell]);
   const Mandel expected = linearised(cell, to)(to_mandel(strain));
   const std::size_t n = material.history_size();
-  const MaterialResponse result =
-      material.update({from.gradient(cell), strain, duration(cell), law_numbers(cell, from)}, to.of(cell).first(n));
+  const MaterialStep step{from.gradient(cell), strain, duration(cell), law_numbers(cell, from)};
+  const MaterialResponse result = material.update(step, to.of(cell).first(n));
   if (!result.solved) return std::numeric_limits<double>::quiet_NaN();
   if (gaps_.has(cell))
     gaps_.advance(cell, mechanics.volume_changes[cell], mechanics.gaps, gap_numbers(cell, from),
                   to.of(cell).subspan(n));
+  if (flowing_.has(cell))
+    flowing_.advance(cell, material.left_by_flow(step, law_numbers(cell, to)), mechanics, gap_numbers(cell, from),
+                     to.of(cell).subspan(n));
   to.gradient(cell) = strain;
   tangent_[cell] = by_strain(result.tangent);
   const Mandel stress = to_mandel(result.stress);
@@ -86,15 +94,16 @@ LinearStress MaterialCells::linearised(Index cell, const CellHistories& historie
 }
 
 IsotropicElasticity MaterialCells::beyond_elasticity(Index cell) const {
-  if (!gaps_.has(cell)) return {};
-  const IsotropicElasticity &now = gaps_.elasticity(cell), &at_once = material_[cell]->elasticity();
+  if (!gaps_.has(cell) && !flowing_.has(cell)) return {};
+  const IsotropicElasticity now = gaps_.has(cell) ? gaps_.elasticity(cell) : flowing_.elasticity(cell),
+                            &at_once = material_[cell]->elasticity();
   return {.lambda = now.lambda - at_once.lambda, .mu = now.mu - at_once.mu};
 }
 
 HistoryStress MaterialCells::history_stress(const CellHistories& histories) const {
   const std::size_t n = mesh_.n_cells();
   HistoryStress history{.stress = CellField<LinearStress>(n)};
-  if (!gaps_.any()) return history;
+  if (!gaps_.any() && !flowing_.any()) return history;
   history.sound = CellField<IsotropicElasticity>(n);
   history.relaxes = CellField<char>(n, 0);
   history.volumes = CellField<VolumeStress>(n);
@@ -102,6 +111,7 @@ HistoryStress MaterialCells::history_stress(const CellHistories& histories) cons
   parallel_for(mesh_.n_cells(), [&](Index c) {
     history.sound[c] = model_.in_cell(mesh_, c).elasticity;
     if (gaps_.has(c)) gaps_.tell(c, gap_numbers(c, histories), RelaxingGaps::At::end, history);
+    if (flowing_.has(c)) flowing_.tell(c, gap_numbers(c, histories), history);
   });
   return history;
 }
@@ -109,10 +119,10 @@ HistoryStress MaterialCells::history_stress(const CellHistories& histories) cons
 MaterialEnergy MaterialCells::energy(Index cell, const CellHistories& histories) const {
   MaterialEnergy energy = material_[cell]->energy(histories.gradient(cell), law_numbers(cell, histories),
                                                   model_.split_of(model_.in_cell(mesh_, cell)));
-  if (!gaps_.has(cell)) return energy;
+  if (!gaps_.has(cell) && !flowing_.has(cell)) return energy;
   const std::span<const double> gaps = gap_numbers(cell, histories);
-  energy.locked += RelaxingGaps::locked(gaps);
-  energy.dissipated += RelaxingGaps::dissipated(gaps);
+  energy.locked += gaps_.has(cell) ? RelaxingGaps::locked(gaps) : FlowingGaps::locked(gaps);
+  energy.dissipated += gaps_.has(cell) ? RelaxingGaps::dissipated(gaps) : FlowingGaps::dissipated(gaps);
   return energy;
 }
 
@@ -121,7 +131,7 @@ CellHistories MaterialCells::virgin_histories() const {
   std::vector<std::size_t> sizes;
   sizes.reserve(mesh_.n_cells());
   for (Index c = 0; c < mesh_.n_cells(); ++c)
-    sizes.push_back(has(c) ? material_[c]->history_size() + gaps_.size(c) : 0);
+    sizes.push_back(has(c) ? material_[c]->history_size() + gaps_.size(c) + flowing_.size(c) : 0);
   CellHistories histories(sizes);
   for (Index c = 0; c < mesh_.n_cells(); ++c)
     if (has(c)) material_[c]->start(histories.of(c).first(material_[c]->history_size()));

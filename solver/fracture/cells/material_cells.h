@@ -13,6 +13,7 @@
 
 #include "mesh/mesh.h"
 #include "physics/elasticity/linear_stress.h"
+#include "solver/fracture/cells/flowing_gaps.h"
 #include "solver/fracture/cells/relaxing_gaps.h"
 #include "solver/fracture/model/fracture_model.h"
 #include "solver/fracture/model/state.h"
@@ -62,6 +63,7 @@ class MaterialCells {
   CellField<double> shift_;              // a_T in it; empty: 1
   CellField<const Material*> material_;  // null: elastic
   RelaxingGaps gaps_;
+  FlowingGaps flowing_;
   CellField<MandelMatrix> tangent_;  // [Pa]; empty without such cells
 };
 

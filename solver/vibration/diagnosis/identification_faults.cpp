@@ -82,7 +82,7 @@ Hypothesis of_scale(const VibrationRecord& record) {
   constexpr double least_of_units = 2.0;
   if (factor < least_of_units && factor > 1.0 / least_of_units)
     return {
-        fmt::format("the scale of one channel is off by a factor of {:.3g}, or the sample is softer or stiffer than "
+        fmt::format("the scale of one channel is off by a factor of {:.5g}, or the sample is softer or stiffer than "
                     "the model at these amplitudes",
                     factor),
         "the relative channel multiplied by it", [factor](VibrationRecord r) { return scaled(std::move(r), factor); }};

@@ -1,0 +1,107 @@
+#include "solver/fracture/cells/flowing_gaps.h"
+
+#include "solver/momentum/body/momentum_faces.h"
+#include "solver/momentum/body/unknowns.h"
+
+#include <algorithm>
+
+namespace pfdm {
+namespace {
+
+// Places among a cell's numbers: energies; both volume changes, each with its elastic part. The faces follow, each with
+// its gap, the elastic part of that, its gap along the normal as bulk moduli bear it, and the elastic part of that.
+constexpr std::size_t heat = 0, locked_energy = 1, volumes_from = 2, faces_from = 6, along_from = 6, per_face = 8;
+
+using At = Eigen::Map<const Vector>;
+
+/// Half the work of the stiffness on the elastic part of a gap, less half of that on the gap; and heat by the
+/// trapezoid.
+struct Energies {
+  double locked = 0.0, heat = 0.0;
+  template <class Value, class Dot>
+  void add(const Value& r, const Value& z, const Value& r_n, const Value& z_n, const Dot& dot) {
+    locked += 0.5 * dot(r, Value(r - z));
+    heat += std::max(0.0, 0.5 * dot(Value(r + r_n), Value(z - z_n - r + r_n)));
+  }
+};
+
+}  // namespace
+
+FlowingGaps::FlowingGaps(const Mesh& mesh, const CellField<const Material*>& materials, const FractureModel& model)
+    : mesh_(mesh), model_(model), material_(materials) {
+  for (Index c = 0; c < material_.size(); ++c) {
+    const bool can_flow = mesh.shape[c] != CellShape::polyhedron && mesh.shape[c] != CellShape::pyramid;
+    if (material_[c] != nullptr && !(material_[c]->flows() && can_flow)) material_[c] = nullptr;
+    any_ = any_ || material_[c] != nullptr;
+  }
+  start_step();
+}
+
+std::size_t FlowingGaps::size(Index cell) const {
+  return has(cell) ? faces_from + per_face * mesh_.faces_of_cell(cell).size() : 0;
+}
+
+void FlowingGaps::start_step() { left_ = CellField<double>(any_ ? material_.size() : 0, 1.0); }
+
+// In plane stress the modulus along a face's normal is linear in mu at one Poisson's ratio alone.
+bool FlowingGaps::keeps_ratio(Index cell) const {
+  return model_.is_plane_stress() ||
+         (mesh_.shape[cell] == CellShape::hexahedron && !is_nearly_incompressible(material_[cell]->elasticity()));
+}
+
+IsotropicElasticity FlowingGaps::elasticity(Index cell) const {
+  const IsotropicElasticity& at_once = material_[cell]->elasticity();
+  const double mu = left_[cell] * at_once.mu;
+  if (keeps_ratio(cell)) return {.lambda = left_[cell] * at_once.lambda, .mu = mu};
+  return {.lambda = at_once.bulk_modulus() - 2.0 * mu / 3.0, .mu = mu};
+}
+
+void FlowingGaps::tell(Index cell, std::span<const double> numbers, HistoryStress& history) const {
+  const IsotropicElasticity& at_once = material_[cell]->elasticity();
+  const double mu = at_once.mu, left = left_[cell];
+  const double K = keeps_ratio(cell) ? at_once.bulk_modulus() : 0.0;
+  history.sound[cell] = elasticity(cell);
+  history.relaxes[cell] = 1;
+  const auto remainder = [&](std::size_t at) { return numbers[at + 1] - left * numbers[at]; };
+  history.volumes[cell] = {.by_gradient = mu * remainder(volumes_from), .by_flux = mu * remainder(volumes_from + 2)};
+  const std::size_t first = mesh_.cell_face_offsets[cell];
+  for (std::size_t k = 0; k < mesh_.faces_of_cell(cell).size(); ++k) {
+    const std::size_t at = faces_from + k * per_face;
+    const At z(numbers.data() + at), r(numbers.data() + at + 3);
+    history.gaps[first + k] = {.shear = mu * (r - left * z), .bulk = K * remainder(at + along_from)};
+  }
+}
+
+void FlowingGaps::advance(Index cell, double left, const CellMechanics& now, std::span<const double> from,
+                          std::span<double> to) {
+  left_[cell] = left;
+  const auto follow = [&](std::size_t at, double change) {
+    to[at] = change;
+    to[at + 1] = left * (from[at + 1] + change - from[at]);
+  };
+  follow(volumes_from, now.volume_changes[cell].by_gradient);
+  follow(volumes_from + 2, now.volume_changes[cell].by_flux);
+  const double mu = material_[cell]->elasticity().mu;
+  const double K = keeps_ratio(cell) ? material_[cell]->elasticity().bulk_modulus() : 0.0;
+  Energies energies;
+  const auto faces = mesh_.faces_of_cell(cell);
+  const std::size_t first = mesh_.cell_face_offsets[cell];
+  for (std::size_t k = 0; k < faces.size(); ++k) {
+    const FaceGap& gap = now.gaps[first + k];
+    const std::size_t at = faces_from + k * per_face, along = at + along_from;
+    const Vector n = mesh_.face_area[faces[k]].normalized(), z = gap.strain;
+    const Vector z_n = At(from.data() + at), r_n = At(from.data() + at + 3), r = left * (r_n + z - z_n);
+    Eigen::Map<Vector>(to.data() + at) = z;
+    Eigen::Map<Vector>(to.data() + at + 3) = r;
+    follow(along, gap.along);
+    energies.add(r, z, r_n, z_n, [&](const Vector& a, const Vector& b) {
+      return mu * gap.volume * a.dot(momentum_faces::scale(gap.by_shear, 1.0, n, b));
+    });
+    energies.add(to[along + 1], to[along], from[along + 1], from[along],
+                 [&](double a, double b) { return K * gap.by_bulk * gap.volume * a * b; });
+  }
+  to[locked_energy] = energies.locked / mesh_.cell_volume[cell];
+  to[heat] = from[heat] + energies.heat / mesh_.cell_volume[cell];
+}
+
+}  // namespace pfdm
