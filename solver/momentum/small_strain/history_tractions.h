@@ -3,7 +3,8 @@
 // solve: sigma = C eps + sigma_0 of the cell's strain. The gaps at its faces, by which a, b and c act
 // (isotropic_tractions.h), are borne
 //
-// - elastically by plastic and endochronic cells: the converged solution does not depend on C, which may change with
+// - by plastic and endochronic cells with the share of the moduli that the flow of the step leaves, and what is left of
+//   earlier gaps; by polyhedra of these elastically. The converged solution does not depend on C, which may change with
 //   the direction of the strain increment;
 // - by relaxing materials, which are linear, as strains are: a, b and c are of the moduli that a change of strain
 //   meets in the step, and what is left of earlier gaps is an initial traction of the side (history_stress.h). A body
