@@ -10,13 +10,15 @@ namespace {
 
 // Places among a cell's numbers: energies; both volume changes, each with its elastic part. The faces follow, each with
 // its gap, the elastic part of that, its gap along the normal as bulk moduli bear it, and the elastic part of that.
-constexpr std::size_t heat = 0, locked_energy = 1, volumes_from = 2, faces_from = 6, along_from = 6, per_face = 8;
+namespace places {
+constexpr std::size_t heat = 0, locked = 1, volumes = 2, faces = 6, along = 6, per_face = 8;
+}
 
-using At = Eigen::Map<const Vector>;
+using PlacedVector = Eigen::Map<const Vector>;
 
 /// Half the work of the stiffness on the elastic part of a gap, less half of that on the gap; and heat by the
 /// trapezoid.
-struct Energies {
+struct GapEnergies {
   double locked = 0.0, heat = 0.0;
   template <class Value, class Dot>
   void add(const Value& r, const Value& z, const Value& r_n, const Value& z_n, const Dot& dot) {
@@ -38,7 +40,7 @@ FlowingGaps::FlowingGaps(const Mesh& mesh, const CellField<const Material*>& mat
 }
 
 std::size_t FlowingGaps::size(Index cell) const {
-  return has(cell) ? faces_from + per_face * mesh_.faces_of_cell(cell).size() : 0;
+  return has(cell) ? places::faces + places::per_face * mesh_.faces_of_cell(cell).size() : 0;
 }
 
 void FlowingGaps::start_step() { left_ = CellField<double>(any_ ? material_.size() : 0, 1.0); }
@@ -63,12 +65,13 @@ void FlowingGaps::tell(Index cell, std::span<const double> numbers, HistoryStres
   history.sound[cell] = elasticity(cell);
   history.relaxes[cell] = 1;
   const auto remainder = [&](std::size_t at) { return numbers[at + 1] - left * numbers[at]; };
-  history.volumes[cell] = {.by_gradient = mu * remainder(volumes_from), .by_flux = mu * remainder(volumes_from + 2)};
+  history.volumes[cell] = {.by_gradient = mu * remainder(places::volumes),
+                           .by_flux = mu * remainder(places::volumes + 2)};
   const std::size_t first = mesh_.cell_face_offsets[cell];
   for (std::size_t k = 0; k < mesh_.faces_of_cell(cell).size(); ++k) {
-    const std::size_t at = faces_from + k * per_face;
-    const At z(numbers.data() + at), r(numbers.data() + at + 3);
-    history.gaps[first + k] = {.shear = mu * (r - left * z), .bulk = K * remainder(at + along_from)};
+    const std::size_t at = places::faces + k * places::per_face;
+    const PlacedVector z(numbers.data() + at), r(numbers.data() + at + 3);
+    history.gaps[first + k] = {.shear = mu * (r - left * z), .bulk = K * remainder(at + places::along)};
   }
 }
 
@@ -79,18 +82,19 @@ void FlowingGaps::advance(Index cell, double left, const CellMechanics& now, std
     to[at] = change;
     to[at + 1] = left * (from[at + 1] + change - from[at]);
   };
-  follow(volumes_from, now.volume_changes[cell].by_gradient);
-  follow(volumes_from + 2, now.volume_changes[cell].by_flux);
+  follow(places::volumes, now.volume_changes[cell].by_gradient);
+  follow(places::volumes + 2, now.volume_changes[cell].by_flux);
   const double mu = material_[cell]->elasticity().mu;
   const double K = keeps_ratio(cell) ? material_[cell]->elasticity().bulk_modulus() : 0.0;
-  Energies energies;
+  GapEnergies energies;
   const auto faces = mesh_.faces_of_cell(cell);
   const std::size_t first = mesh_.cell_face_offsets[cell];
   for (std::size_t k = 0; k < faces.size(); ++k) {
     const FaceGap& gap = now.gaps[first + k];
-    const std::size_t at = faces_from + k * per_face, along = at + along_from;
+    const std::size_t at = places::faces + k * places::per_face, along = at + places::along;
     const Vector n = mesh_.face_area[faces[k]].normalized(), z = gap.strain;
-    const Vector z_n = At(from.data() + at), r_n = At(from.data() + at + 3), r = left * (r_n + z - z_n);
+    const Vector z_n = PlacedVector(from.data() + at), r_n = PlacedVector(from.data() + at + 3),
+                 r = left * (r_n + z - z_n);
     Eigen::Map<Vector>(to.data() + at) = z;
     Eigen::Map<Vector>(to.data() + at + 3) = r;
     follow(along, gap.along);
@@ -100,8 +104,8 @@ void FlowingGaps::advance(Index cell, double left, const CellMechanics& now, std
     energies.add(to[along + 1], to[along], from[along + 1], from[along],
                  [&](double a, double b) { return K * gap.by_bulk * gap.volume * a * b; });
   }
-  to[locked_energy] = energies.locked / mesh_.cell_volume[cell];
-  to[heat] = from[heat] + energies.heat / mesh_.cell_volume[cell];
+  to[places::locked] = energies.locked / mesh_.cell_volume[cell];
+  to[places::heat] = from[places::heat] + energies.heat / mesh_.cell_volume[cell];
 }
 
 }  // namespace pfdm
