@@ -10,22 +10,25 @@
 namespace pfdm {
 namespace {
 
-constexpr std::size_t most_numbers = 1000;
-constexpr double most_rounding = 1e-9;  // of a dissipated energy, in that of stress and strain
+constexpr std::size_t most_numbers = 1000, n_entries = 6;  // of a history; of an answer
+constexpr double most_rounding = 1e-9;                     // of a dissipated energy, in that of stress and strain
 
-/// Places after the law's own numbers: the strain that is not elastic, and energies [J/m^3].
-enum Own : std::size_t { inelastic_strain = 0, locked = 6, dissipated = 7, n_own = 8 };
+/// Places after the law's own numbers: the strain that is not elastic, energies [J/m^3], the stress at which it flows
+/// [Pa].
+enum Own : std::size_t { inelastic_strain = 0, locked = 6, dissipated = 7, flow = 8, n_own = 9 };
 
 class ScriptMaterial final : public SmallStrainMaterial {
  public:
   ScriptMaterial(const std::string& place, const py::object& law, const IsotropicElasticity& elasticity)
       : SmallStrainMaterial("written in Python", elasticity),
-        law_(place, law, most_numbers),
+        law_(place, law, most_numbers, n_entries),
+        flows_(py::bool_(py::getattr(law, "flows", py::bool_(false)))),
         compliance_(stiffness_matrix(elasticity).inverse()) {
     for (std::size_t i = 0; i < law_.history_size(); ++i) names_.push_back(fmt::format("history_{}", i));
   }
 
   bool depends_on_rate() const override { return law_.depends_on_rate(); }
+  bool flows() const override { return flows_; }
   std::size_t history_size() const override { return law_.history_size() + n_own; }
   std::vector<HistoryField> history_fields() const override {
     std::vector<HistoryField> fields;
@@ -52,6 +55,7 @@ class ScriptMaterial final : public SmallStrainMaterial {
       history[n + locked] = answer.number(3, "locked energy");
       const double rounding = most_rounding * response.stress.norm() * step.to.norm();
       history[n + dissipated] = step.history[n + dissipated] + answer.dissipated(4, rounding);
+      history[n + flow] = answer.number(5, "flow stress");
     }
     Eigen::Map<Mandel>(history.data() + n + inelastic_strain) = step.to - compliance_ * response.stress;
     return response;
@@ -63,9 +67,13 @@ class ScriptMaterial final : public SmallStrainMaterial {
             .locked = own[locked],
             .dissipated = own[dissipated]};
   }
+  double flow_stress(std::span<const double> history, double) const override {
+    return history[law_.history_size() + flow];
+  }
 
  private:
   ScriptLaw law_;
+  bool flows_;
   MandelMatrix compliance_;  // [1/Pa]
   std::vector<std::string> names_;
 };

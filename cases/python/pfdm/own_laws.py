@@ -40,6 +40,8 @@ class MaterialResponse(NamedTuple):
         history: (history_size,), what the law remembers at the end of the step.
         locked: energy that is stored besides the elastic one, as by hardening [J/m^3].
         dissipated: energy that this step has dissipated [J/m^3].
+        flow_stress: of a material that `flows`, the norm of the deviatoric stress less back stresses at which it does, at the
+            end of the step [Pa]: sqrt(2/3) times the yield stress of von Mises.
     """
 
     stress: ArrayLike
@@ -47,6 +49,7 @@ class MaterialResponse(NamedTuple):
     history: ArrayLike = ()
     locked: float = 0.0
     dissipated: float = 0.0
+    flow_stress: float = 0.0
 
 
 class HyperelasticResponse(NamedTuple):
@@ -119,10 +122,13 @@ class OwnMaterial(ABC):
     Attributes:
         history_size: how many numbers it remembers of each cell, at most 1000; they are 0 at first.
         depends_on_rate: whether it needs the duration of steps, and the case a loading.duration.
+        flows: whether inelastic strains stay, as plastic ones. What strains differ by at the faces of a cell then flows with
+            it. Otherwise it is elastic, and bodies that yield as a whole bear more than their limit load.
     """
 
     history_size: int = 0
     depends_on_rate: bool = False
+    flows: bool = False
 
     @abstractmethod
     def respond(self, strain_before: NDArray[numpy.float64], strain: NDArray[numpy.float64],

@@ -88,6 +88,7 @@ class J2Plasticity(pfdm.OwnMaterial):
     """What law = "j2_plasticity" does: linear isotropic and kinematic hardening, radial return."""
 
     history_size = 7  # plastic strain, its equivalent
+    flows = True
 
     def __init__(self, young_modulus, poisson_ratio, yield_stress, isotropic, kinematic):
         self.C, self.mu = stiffness(young_modulus, poisson_ratio), young_modulus / (2.0 * (1.0 + poisson_ratio))
@@ -110,7 +111,8 @@ class J2Plasticity(pfdm.OwnMaterial):
             plastic, p = plastic + flow * n, p + numpy.sqrt(2.0 / 3.0) * flow
             dissipated = Y * numpy.sqrt(2.0 / 3.0) * flow
         locked = 0.5 * K * p**2 + H * plastic @ plastic / 3.0
-        return pfdm.MaterialResponse(stress, tangent, [*plastic, p], locked, dissipated)
+        flow_stress = numpy.sqrt(2.0 / 3.0) * (Y + K * p)
+        return pfdm.MaterialResponse(stress, tangent, [*plastic, p], locked, dissipated, flow_stress)
 
 
 class NortonCreep(pfdm.OwnMaterial):
