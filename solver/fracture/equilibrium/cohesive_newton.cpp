@@ -18,7 +18,7 @@ constexpr Index most_newton_iterations = 80;  // of FGMRES: where the tangent is
 constexpr double lost = 1e6;                  // residual from which nothing leads back, over that at the start
 constexpr double bearable_rest = 0.3;         // of the residual, after so many
 constexpr double bearable_circles = 1e-3;  // residual with which damage may go on where the iteration goes in circles
-constexpr double exact_enough = 1e-4;      // residual from which faces that are sound stay so
+constexpr double exact_enough = 1e-4;  // residual at finite strain below which settling, of second order, adds to it
 
 /// Whether the next step is by tangent or by its convex part. Convex steps lead from below to where the faces come to
 /// rest, however far that is; where tangents do not lead on, the iteration goes back to where those had come to.
@@ -123,7 +123,7 @@ class FacesNewton {
         break;
       }
       // After the first solve of sound faces, too: what is left of it takes stiff ones far beyond their strength.
-      const bool is_rough = k == 0 && is_sound_ && residual > exact_enough;
+      const bool is_rough = k == 0 && is_sound_ && (!cells_ || residual > exact_enough);
       if (!has_rate_ && (is_rough || way_out_.is_marching() || residual > falls * last)) settle();
       last = residual;
       way_ = way_out_.next(residual, solved, u_);
