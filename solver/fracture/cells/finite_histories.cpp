@@ -28,9 +28,7 @@ FiniteHistories::FiniteHistories(const Mesh& mesh, const CellField<const Hyperel
   modulus_ = bulk_modulus_ = CellField<double>(n, 0.0);
 }
 
-void FiniteHistories::set_own_sides(std::vector<Index> cells) {
-  cells_of_own_ = std::move(cells);
-}
+void FiniteHistories::set_own_sides(std::vector<Index> cells) { cells_of_own_ = std::move(cells); }
 
 CellHistories FiniteHistories::virgin_histories() const {
   if (!any()) return {};

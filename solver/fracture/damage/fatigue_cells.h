@@ -1,7 +1,8 @@
 #pragma once
-// Fatigue of the cells (physics/damage/fatigue.h): memory and toughness factors. alpha_bar grows once with each accepted
-// step, by the growth of alpha over the step. So f is that of the step's start, and with damage that grows the result
-// has an error of first order in the step. While no damage grows steps that end on the peaks of the load are enough.
+// Fatigue of the cells (physics/damage/fatigue.h): memory and toughness factors. alpha_bar grows once with each
+// accepted step, by the growth of alpha over the step. So f is that of the step's start, and with damage that grows the
+// result has an error of first order in the step. While no damage grows steps that end on the peaks of the load are
+// enough.
 
 #include "mesh/mesh.h"
 #include "solver/fracture/damage/body_fatigue.h"
