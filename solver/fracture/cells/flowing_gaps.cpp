@@ -59,9 +59,7 @@ IsotropicElasticity FlowingGaps::elasticity(Index cell) const {
 }
 
 void FlowingGaps::tell(Index cell, std::span<const double> numbers, HistoryStress& history) const {
-  const IsotropicElasticity& at_once = material_[cell]->elasticity();
-  const double mu = at_once.mu, left = left_[cell];
-  const double K = keeps_ratio(cell) ? at_once.bulk_modulus() : 0.0;
+  const double mu = material_[cell]->elasticity().mu, K = bulk_modulus(cell), left = left_[cell];
   history.sound[cell] = elasticity(cell);
   history.relaxes[cell] = 1;
   const auto remainder = [&](std::size_t at) { return numbers[at + 1] - left * numbers[at]; };
@@ -84,8 +82,7 @@ void FlowingGaps::advance(Index cell, double left, const CellMechanics& now, std
   };
   follow(places::volumes, now.volume_changes[cell].by_gradient);
   follow(places::volumes + 2, now.volume_changes[cell].by_flux);
-  const double mu = material_[cell]->elasticity().mu;
-  const double K = keeps_ratio(cell) ? material_[cell]->elasticity().bulk_modulus() : 0.0;
+  const double mu = material_[cell]->elasticity().mu, K = bulk_modulus(cell);
   GapEnergies energies;
   const auto faces = mesh_.faces_of_cell(cell);
   const std::size_t first = mesh_.cell_face_offsets[cell];

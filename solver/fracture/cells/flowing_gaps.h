@@ -52,6 +52,10 @@ class FlowingGaps {
   // Whether bulk moduli bear gaps as shear moduli do: of hexahedra, on which the bulk modulus alone locks. Others have
   // rough modes without it.
   bool keeps_ratio(Index cell) const;
+  // Bulk modulus that gaps along the normals of faces meet where they keep the ratio; else 0 [Pa].
+  double bulk_modulus(Index cell) const {
+    return keeps_ratio(cell) ? material_[cell]->elasticity().bulk_modulus() : 0.0;
+  }
 
   const Mesh& mesh_;
   const FractureModel& model_;

@@ -203,6 +203,7 @@ std::optional<Warned> warn_of_hexahedra(const Mesh& mesh, const Unknowns& unknow
 // On damage in layers across which the axes of the material turn, whose slopes know that as long as they are sound.
 std::optional<std::string> warn_of_damage(const Mesh& mesh, const Unknowns& unknowns, const FractureModel& model) {
   constexpr double enough_layers = 16.0;
+  if (model.is_isotropic()) return std::nullopt;
   const auto few = fewest_turned_layers(mesh, unknowns);
   if (!few || few->layers.n >= enough_layers || !model.in_cell(mesh, few->cell).damageable) return std::nullopt;
   return fmt::format(
