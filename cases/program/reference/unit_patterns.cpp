@@ -23,11 +23,11 @@ const std::map<std::string_view, std::string>& classes() {
     return std::map<std::string_view, std::string>{
         {"LENGTH",
          "(?:" + p +
-             "(?:m|meters?|metres?)|microns?|angstroms?|in|inch|inches|ft|foot|feet|yd|yards?|mi|miles?|mils?)"},
-        {"MASS", "(?:" + p + "(?:g|grams?|t|tonnes?)|lb|pounds?|oz)"},
+             "(?:m|meters?|metres?)|microns?|angstroms?|in|inch|inches|ft|foot|feet|yd|yards?|mi|miles?|mils?|thou)"},
+        {"MASS", "(?:" + p + "(?:g|grams?|t|tonnes?)|lbm?|pounds?|oz)"},
         {"TIME", "(?:" + p + "(?:s|seconds?)|min|minutes?|h|hr|hours?|d|days?|years?)"},
-        {"FORCE", "(?:" + p + "(?:N|newtons?)|lbf|kgf|dyne?|kip)"},
-        {"PRESSURE", "(?:" + p + "(?:Pa|pascals?|bar)|atm|psi|ksi|mmHg)"},
+        {"FORCE", "(?:" + p + "(?:N|newtons?)|lbf|kgf|kp|dyne?|kip)"},
+        {"PRESSURE", "(?:" + p + "(?:Pa|pascals?|bar)|atm|psi|ksi|Msi|mmHg)"},
         {"ENERGY", "(?:" + p + "(?:J|joules?|eV|cal|Wh)|erg)"},
         {"POWER", "(?:" + p + "(?:W|watts?))"},
         {"FREQUENCY", "(?:" + p + "(?:Hz|hertz))"},
@@ -54,9 +54,9 @@ const std::vector<UnitForm>& forms_of_motion() {
       {"m^3", {"{LENGTH}3", "{VOLUME}"}},
       {"kg", {"{MASS}"}},
       {"s", {"{TIME}"}},
-      {"Hz", {"{FREQUENCY}", "1/{TIME}", "{TIME}-1"}},
-      {"1/s", {"1/{TIME}", "{TIME}-1", "{FREQUENCY}", "{NONE}/{TIME}"}},
-      {"s^-1", {"1/{TIME}", "{TIME}-1", "{FREQUENCY}", "{NONE}/{TIME}"}},
+      {"Hz", {"{FREQUENCY}", "1/{TIME}", "/{TIME}", "{TIME}-1"}},
+      {"1/s", {"1/{TIME}", "/{TIME}", "{TIME}-1", "{FREQUENCY}", "{NONE}/{TIME}"}},
+      {"s^-1", {"1/{TIME}", "/{TIME}", "{TIME}-1", "{FREQUENCY}", "{NONE}/{TIME}"}},
       {"m/s", {"{LENGTH}/{TIME}", "{LENGTH} {TIME}-1"}},
       {"m/s^2", {"{GRAVITY}", "{LENGTH}/{TIME}2", "{LENGTH} {TIME}-2", "{LENGTH}/{TIME}/{TIME}"}},
       {"m^2/s^4/Hz",
@@ -107,7 +107,7 @@ const std::vector<UnitForm>& forms_of_heat() {
        {"{ENERGY}/{MASS}/{DIFFERENCE}", "{ENERGY}/({MASS} {DIFFERENCE})", "{ENERGY} {MASS}-1 {DIFFERENCE}-1"}},
       {"W/m^2/K",
        {"{POWER}/{LENGTH}2/{DIFFERENCE}", "{POWER}/({LENGTH}2 {DIFFERENCE})", "{POWER} {LENGTH}-2 {DIFFERENCE}-1"}},
-      {"1/K", {"1/{DIFFERENCE}", "{DIFFERENCE}-1", "{NONE}/{DIFFERENCE}"}},
+      {"1/K", {"1/{DIFFERENCE}", "/{DIFFERENCE}", "{DIFFERENCE}-1", "{NONE}/{DIFFERENCE}"}},
   };
   return all;
 }

@@ -19,6 +19,7 @@ constexpr Range tasks_range{1.0, 1e6, false, "between 1 and 1000000"};
 
 /// A value of the case: a quantity of any dimension, or a number.
 KeyType value_type() { return keys::either({keys::text("quantity"), keys::number()}); }
+KeyType any_value_type() { return keys::either({keys::text("quantity or word"), keys::number(), keys::flag()}); }
 /// A key of the case, or several that keep their ratios.
 KeyType key_type() {
   return keys::either({keys::text("key of the case"), keys::list(keys::text("key of the case"), 1)});
@@ -75,7 +76,7 @@ const KeyTable& sweep_parameter_keys() {
       .name = "sweep.parameters[]",
       .sentence = "A parameter that the sweep changes.",
       .keys = {{"key", key_type(), "", "Key of the case whose value is changed, or several that keep their ratios."},
-               {"values", list(value_type(), 1), "or between", "Values of the parameter, in units."},
+               {"values", list(any_value_type(), 1), "or between", "Values of the parameter, in units; or words."},
                {"between", list(value_type(), 2, 2), "or values", "Two values between which the parameter is spread."},
                {"count", whole(count_range), "with between of a grid or list", "Number of values between the two."},
                {"spacing", choice("spacing", {"linear", "logarithmic"}), "\"linear\"",

@@ -218,8 +218,17 @@ class Results:
 
     @cached_property
     def sweep(self) -> pandas.DataFrame:
-        """sweep.csv: a row for each run of a sweep."""
-        return self.table("sweep.csv")
+        """sweep.csv: a row for each run of a sweep. Where it changed words, as "AT1" and "AT2", columns have these."""
+        table = self.table("sweep.csv")
+        words: dict[str, dict[int, str]] = {}
+        for line in (self.folder / "sweep.csv").read_text(encoding="utf-8").splitlines():
+            if not line.startswith("#"):
+                break
+            if told := re.match(r"# (\S+), (\d+): (.*)", line):
+                words.setdefault(told[1], {})[int(told[2])] = told[3]
+        for name in words.keys() & set(table.columns):
+            table[name] = table[name].astype(int).map(words[name])
+        return table
 
     @cached_property
     def sensitivity(self) -> pandas.DataFrame:

@@ -1,3 +1,4 @@
+#include "cases/program/input/config/heat_units.h"
 #include "cases/program/input/config/units.h"
 #include "physics/error.h"
 
@@ -34,6 +35,12 @@ TEST(Units, ReadsQuantitiesInSi) {
 
 TEST(Units, ReadsMultiplesOfGravity) {
   constexpr double g0 = 9.80665;
+  EXPECT_DOUBLE_EQ(parse_quantity("1e-5/K", dimension::per_temperature), 1e-5);
+  EXPECT_NEAR(parse_quantity("62.43 lbm/ft^3", dimension::density), 1000.0, 0.05);
+  EXPECT_NEAR(parse_quantity("1 Msi", dimension::stress), 6.894757e9, 1e3);
+  EXPECT_NEAR(parse_quantity("1 kp/cm^2", dimension::stress), 98066.5, 1e-6);
+  EXPECT_DOUBLE_EQ(parse_quantity("20 dyn/cm^2", dimension::stress), 2.0);
+  EXPECT_DOUBLE_EQ(parse_quantity("2 thou", dimension::length), 50.8e-6);
   EXPECT_DOUBLE_EQ(parse_quantity("5 g0", dimension::acceleration), 5.0 * g0);
   EXPECT_DOUBLE_EQ(parse_quantity("0.05 g0^2/Hz", dimension::acceleration_density), 0.05 * g0 * g0);
   EXPECT_NE(message_of("5 g", dimension::acceleration).find("write g0 for multiples of gravity"), std::string::npos);

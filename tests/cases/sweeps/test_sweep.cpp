@@ -152,6 +152,40 @@ TEST(Sweep, RunsASample) {
   }
 }
 
+// A word, a truth value and a number at once; a report has the words.
+TEST(Sweep, ChangesWordsAsWell) {
+  const std::string words = R"(
+[sweep]
+method = "grid"
+[[sweep.parameters]]
+key = "fracture.model"
+values = ["AT1", "AT2"]
+[[sweep.parameters]]
+key = "materials.concrete.young_modulus"
+values = ["30 GPa", "40 GPa"]
+[[sweep.parameters]]
+key = "materials.concrete.damageable"
+values = [true]
+)";
+  const std::string damageable = "poisson_ratio = 0.2\ndamageable = true";
+  const TemporaryCase directory(replaced(bar_case(), "poisson_ratio = 0.2", damageable) + words);
+  const Outcome outcome = run({"sweep", directory.path().string()});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const CsvTable table = read_csv(directory.results() / "sweep.csv");
+  EXPECT_EQ(table.column("fracture.model"), (std::vector<double>{0.0, 0.0, 1.0, 1.0}));
+  EXPECT_EQ(std::ranges::count(table.comments, "fracture.model, 1: AT2"), 1)
+      << content_of(directory.results() / "sweep.csv");
+  // Strength over (E Gc/length)^(1/2): (3/8)^(1/2) and 3/16 3^(1/2); steps of a tenth of the load tell it roughly.
+  const std::vector<double>& peak = table.column("peak_force_N");
+  EXPECT_NEAR(peak[2] / peak[0], 0.3248 / 0.6124, 0.12);
+  for (const std::size_t i : {0u, 2u}) EXPECT_NEAR(peak[i + 1] / peak[i], std::sqrt(4.0 / 3.0), 0.1);
+  EXPECT_TRUE(fs::exists(directory.results() /
+                         "runs_by_value/model=AT2,concrete.young_modulus=40GPa,concrete.damageable=true"));
+  const Outcome report = run({"report", directory.path().string()});
+  ASSERT_EQ(report.status, 0) << report.err;
+  EXPECT_NE(content_of(directory.results() / "report/index.html").find("AT2"), std::string::npos);
+}
+
 class BadSweep : public testing::TestWithParam<BadInput> {};
 
 TEST_P(BadSweep, IsRefusedWithOneMessage) {
@@ -189,6 +223,14 @@ const BadInput bad_sweeps[] = {
      "[\"materials.concrete.toughness\", \"regions.weak.toughness\"]",
      "\"materials.concrete.young_modulus\"",
      {"[sweep.parameters] key: \"materials.concrete.young_modulus\" is named twice"}},
+    {"words_between_two",
+     "\"grid\"\n[[sweep.parameters]]",
+     "\"grid\"\n[[sweep.parameters]]\nkey = \"fracture.model\"\nbetween = [\"AT1\", \"AT2\"]\n[[sweep.parameters]]",
+     {"\"fracture.model\" holds no number: \"values\" has to list what it takes"}},
+    {"numbers_for_words",
+     "\"grid\"\n[[sweep.parameters]]",
+     "\"grid\"\n[[sweep.parameters]]\nkey = \"fracture.model\"\nvalues = [1, 2]\n[[sweep.parameters]]",
+     {"[sweep.parameters] values[0]", "expected a text"}},
     {"element_that_is_not_there",
      "\"materials.concrete.young_modulus\"",
      "\"mesh.x[1].cells\"",

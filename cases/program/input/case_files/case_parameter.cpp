@@ -8,10 +8,27 @@
 namespace pfdm {
 namespace {
 
-/// What is written into the file: a text with its unit, or a bare number.
-std::string piece_of_toml(const CaseParameter& parameter, double si) {
-  const std::string text = parameter.shown(si);
-  return parameter.unit.empty() ? text : fmt::format("\"{}\"", text);
+bool is_truth(const std::string& key, const CaseFile& file) {
+  const TomlValue root = parse_toml(file.text, "case.toml");
+  return std::holds_alternative<bool>(value_at(root, key).value);
+}
+
+std::vector<ConfigValue> keys_of(const ConfigValue& key) {
+  std::vector<ConfigValue> keys = key.is_list() ? key.list() : std::vector{key};
+  if (keys.empty()) throw key.error("expected a key of the case, as in \"materials.glass.young_modulus\"");
+  return keys;
+}
+
+/// What is written at the k-th key for a value of the first: a text with its unit, a bare number, or a word.
+std::string piece_of_toml(const CaseParameter& parameter, std::size_t k, double value, const CaseFile& file) {
+  const std::string& key = parameter.keys[k];
+  if (!parameter.words.empty()) {
+    const std::string word = parameter.shown(value);
+    return is_truth(key, file) ? word : quoted_toml(word);
+  }
+  const CaseParameter there = case_parameter(key, file);
+  const std::string text = there.shown(value * parameter.ratios[k]);
+  return there.unit.empty() ? text : quoted_toml(text);
 }
 
 }  // namespace
@@ -47,16 +64,44 @@ void keep_ratio(CaseParameter& parameter, const CaseParameter& other) {
 }
 
 std::string CaseParameter::shown(double si) const {
+  if (!words.empty()) return words.at(static_cast<std::size_t>(si));
   const double value_in_file = in_file_units(si);
   return unit.empty() ? fmt::format("{:.8g}", value_in_file) : fmt::format("{:.8g} {}", value_in_file, unit);
 }
 
 CaseParameter read_case_parameter(const ConfigValue& key, const CaseFile& file) {
-  const std::vector<ConfigValue> keys = key.is_list() ? key.list() : std::vector{key};
-  if (keys.empty()) throw key.error("expected a key of the case, as in \"materials.glass.young_modulus\"");
+  const std::vector<ConfigValue> keys = keys_of(key);
   CaseParameter result = keys[0].in_context([&] { return case_parameter(keys[0].string(), file); });
   for (std::size_t i = 1; i < keys.size(); ++i)
     keys[i].in_context([&] { keep_ratio(result, case_parameter(keys[i].string(), file)); });
+  return result;
+}
+
+bool holds_word(const std::string& key, const CaseFile& file) {
+  const TomlValue root = parse_toml(file.text, "case.toml");
+  const TomlValue& value = value_at(root, key);
+  if (std::holds_alternative<bool>(value.value)) return true;
+  const auto* text = std::get_if<std::string>(&value.value);
+  if (text == nullptr) return false;
+  try {
+    dimension_of(*text);
+    return false;
+  } catch (const InputError&) {
+    return true;
+  }
+}
+
+CaseParameter read_word_parameter(const ConfigValue& key, std::span<const ConfigValue> values, const CaseFile& file) {
+  CaseParameter result{.name = {}, .keys = {}, .ratios = {}, .dimension = dimension::number, .unit = {}};
+  for (const ConfigValue& one : keys_of(key)) {
+    if (!one.in_context([&] { return holds_word(one.string(), file); }))
+      throw one.error(fmt::format("\"{}\" holds a number, the first key does not", one.string()));
+    result.keys.push_back(one.string());
+  }
+  result.name = result.keys.front();
+  const bool truth = is_truth(result.name, file);
+  for (const ConfigValue& value : values)
+    result.words.push_back(truth ? fmt::format("{}", value.boolean()) : value.string());
   return result;
 }
 
@@ -80,10 +125,8 @@ std::string shown(std::span<const CaseParameter> parameters, std::span<const dou
 CaseFile with_values(const CaseFile& file, std::span<const CaseParameter> parameters, std::span<const double> values) {
   std::string text = file.text;
   for (std::size_t j = 0; j < parameters.size(); ++j)
-    for (std::size_t k = 0; k < parameters[j].keys.size(); ++k) {
-      const CaseParameter there = case_parameter(parameters[j].keys[k], file);
-      text = with_value(text, there.name, piece_of_toml(there, values[j] * parameters[j].ratios[k]));
-    }
+    for (std::size_t k = 0; k < parameters[j].keys.size(); ++k)
+      text = with_value(text, parameters[j].keys[k], piece_of_toml(parameters[j], k, values[j], file));
   return with_text(file, std::move(text));
 }
 

@@ -75,10 +75,17 @@ std::string replace_word(std::string_view text, std::string_view word, std::stri
   return result;
 }
 
-/// Null if UDUNITS does not know it. To UDUNITS "g0" would be gram to the power of zero.
+/// Names that testing machines and data sheets write, and what UDUNITS calls them. To UDUNITS "g0" would be gram to the
+/// power of zero.
+constexpr std::pair<std::string_view, std::string_view> other_names[] = {
+    {"g0", "gravity"}, {"lbm", "pound"}, {"kp", "kgf"}, {"dyn", "dyne"}, {"thou", "mil"}, {"Msi", "(1e6 psi)"}};
+
+/// Null if UDUNITS does not know it. "/K", as in "1e-5/K", is 1/K.
 Unit parse_unit(std::string_view text) {
   ut_system* const system = unit_system();
-  const std::string spelled = replace_word(trimmed(text), "g0", "gravity");
+  std::string spelled(trimmed(text));
+  if (spelled.starts_with('/')) spelled.insert(0, "1");
+  for (const auto& [name, known] : other_names) spelled = replace_word(spelled, name, known);
   return Unit(spelled.empty() ? nullptr : ut_parse(system, spelled.c_str(), UT_UTF8), &ut_free);
 }
 

@@ -1,6 +1,8 @@
 #include "cases/program/studies/sweep/shown_columns.h"
 
 #include "cases/program/session/report_parts.h"
+#include "postproc/files/text_file.h"
+#include "postproc/page/display_unit.h"
 
 #include <fmt/format.h>
 
@@ -28,7 +30,30 @@ constexpr std::string_view costs[] = {"threads",      "staggered_iterations", "k
 
 }  // namespace
 
-std::string ShownColumn::title() const { return fmt::format("{} [{}]", words, unit.empty() ? "-" : unit); }
+std::string ShownColumn::title() const {
+  if (names.empty()) return fmt::format("{} [{}]", words, unit.empty() ? "-" : unit);
+  std::vector<std::string> meanings;
+  for (std::size_t k = 0; k < names.size(); ++k) meanings.push_back(fmt::format("{} {}", k, names[k]));
+  return fmt::format("{} ({})", words, fmt::join(meanings, ", "));
+}
+
+std::string ShownColumn::cell(std::size_t i) const {
+  return names.empty() ? shown(values[i]) : names.at(static_cast<std::size_t>(values[i]));
+}
+
+std::string comment_of_word(const std::string& column, std::size_t k, const std::string& word) {
+  return fmt::format("{}, {}: {}", column, k, word);
+}
+
+ShownColumn shown_column(const CsvTable& table, std::size_t j) {
+  ShownColumn column = shown_column(table.names[j], table.columns[j]);
+  for (const std::string& comment : table.comments) {
+    const std::string mark = comment_of_word(table.names[j], column.names.size(), "");
+    if (const std::string_view told = trimmed(comment); told.starts_with(mark))
+      column.names.emplace_back(told.substr(mark.size()));
+  }
+  return column;
+}
 
 ShownColumn shown_column(const std::string& name, const std::vector<double>& values) {
   const auto ending = std::ranges::find_if(endings, [&](const Ending& e) { return name.ends_with(e.ending); });

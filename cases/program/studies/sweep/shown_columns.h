@@ -1,7 +1,8 @@
 #pragma once
 // Columns of figures as pages show them: names with units at their ends become words, numbers get prefixes.
 
-#include <optional>
+#include "postproc/files/csv_table.h"
+
 #include <string>
 #include <string_view>
 #include <vector>
@@ -12,8 +13,16 @@ namespace pfdm {
 struct ShownColumn {
   std::string words, unit;
   std::vector<double> values;
-  std::string title() const;  ///< "peak force [mN]"
+  std::vector<std::string> names{};       ///< what the values 0, 1, ... stand for; empty: numbers
+  std::string title() const;              ///< "peak force [mN]", "model (0 AT1, 1 AT2)"
+  std::string cell(std::size_t i) const;  ///< the i-th value
 };
+
+/// The comment of a table by which the number `k` in a column stands for a word: "model, 0: AT1".
+std::string comment_of_word(const std::string& column, std::size_t k, const std::string& word);
+
+/// The j-th column of a table, with the words that its comments have for the column's numbers.
+ShownColumn shown_column(const CsvTable& table, std::size_t j);
 
 /// "peak_force_N" of numbers in SI as "peak force" in the unit that suits the largest of them.
 ShownColumn shown_column(const std::string& name, const std::vector<double>& values);

@@ -126,6 +126,9 @@ CsvTable table_of(const SweepSettings& settings, const std::vector<DoneRun>& run
                                  : fmt::format("run {}: {}", i + 1, runs[i].failure));
   }
   table.add("run", number);
+  for (const CaseParameter& parameter : settings.parameters)
+    for (std::size_t k = 0; k < parameter.words.size(); ++k)
+      table.comments.push_back(comment_of_word(parameter.name, k, parameter.words[k]));
   for (std::size_t j = 0; j < settings.parameters.size(); ++j) {
     std::vector<double> values;
     for (const std::vector<double>& point : settings.points) values.push_back(point[j]);

@@ -31,9 +31,24 @@ Interval read_interval(const ConfigTable& table, const CaseParameter& parameter)
   return interval;
 }
 
+/// By its key, and by the words of its values where the key holds no number.
+CaseParameter read_parameter(const ConfigTable& table, const CaseFile& file) {
+  const ConfigValue key = table.at("key");
+  const std::vector<ConfigValue> keys = key.is_list() ? key.list() : std::vector{key};
+  if (keys.empty() || !keys[0].in_context([&] { return holds_word(keys[0].string(), file); }))
+    return read_case_parameter(key, file);
+  if (!table.has("values"))
+    throw table.error(fmt::format("\"{}\" holds no number: \"values\" has to list what it takes", keys[0].string()));
+  const std::vector<ConfigValue> values = table.at("values").list();
+  if (values.empty()) throw table.at("values").error("at least one value is required");
+  return read_word_parameter(key, values, file);
+}
+
 /// Those that are listed, or `count` of them between two ends.
 std::vector<double> read_values(const ConfigTable& table, const CaseParameter& parameter) {
-  std::vector<double> values;
+  std::vector<double> values(parameter.words.size());
+  std::iota(values.begin(), values.end(), 0.0);
+  if (!values.empty()) return values;
   if (table.has("values")) {
     for (const ConfigValue& value : table.at("values").list()) values.push_back(read_parameter_value(value, parameter));
     if (values.empty()) throw table.at("values").error("at least one value is required");
@@ -82,6 +97,9 @@ Points samples(const std::vector<ConfigTable>& tables, const std::vector<CasePar
   const auto seed = static_cast<std::uint64_t>(sweep.integer("seed", std::int64_t{1}));
   Points points = latin_hypercube(n, parameters.size(), seed);
   for (std::size_t j = 0; j < parameters.size(); ++j) {
+    if (!parameters[j].words.empty())
+      throw tables[j].error(
+          fmt::format("\"{}\" holds no number: the method has to be \"grid\" or \"list\"", parameters[j].name));
     const Interval interval = read_interval(tables[j], parameters[j]);
     for (std::vector<double>& point : points) point[j] = interval.at(point[j]);
   }
@@ -111,9 +129,8 @@ std::optional<SweepSettings> read_sweep(const CaseFile& file) {
   SweepSettings settings;
   const std::vector<ConfigTable> tables = sweep.tables("parameters");
   for (const ConfigTable& table : tables) {
-    const ConfigValue key = table.at("key");
-    settings.parameters.push_back(read_case_parameter(key, file));
-    require_named_once(key, settings.parameters);
+    settings.parameters.push_back(read_parameter(table, file));
+    require_named_once(table.at("key"), settings.parameters);
   }
   if (sweep.has("slurm")) settings.slurm = read_slurm(sweep.table("slurm"));
   if (tables.empty()) throw sweep.error("at least one [[sweep.parameters]] is required");

@@ -57,9 +57,9 @@ Table runs_table(const CsvTable& table, const SweepColumns& columns) {
                     .has_header = true};
   for (std::size_t i = 0; i < n; ++i) shown_table.rows.push_back({fmt::format("{}", i + 1)});
   for (const std::size_t j : all) {
-    const ShownColumn column = shown_column(table.names[j], table.columns[j]);
-    shown_table.rows[0].push_back(column.title());
-    for (std::size_t i = 0; i < n; ++i) shown_table.rows[i + 1].push_back(shown(column.values[i]));
+    const ShownColumn column = shown_column(table, j);
+    shown_table.rows[0].push_back(column.names.empty() ? column.title() : column.words);
+    for (std::size_t i = 0; i < n; ++i) shown_table.rows[i + 1].push_back(column.cell(i));
   }
   return shown_table;
 }
@@ -77,8 +77,7 @@ std::map<double, std::vector<std::size_t>> groups(const CsvTable& table, const S
 }
 
 Chart figure_chart(const CsvTable& table, const SweepColumns& columns, std::size_t x, std::size_t figure) {
-  const ShownColumn across = shown_column(table.names[x], table.columns[x]),
-                    up = shown_column(table.names[figure], table.columns[figure]);
+  const ShownColumn across = shown_column(table, x), up = shown_column(table, figure);
   Chart chart{.caption = up.words, .x = {.title = across.title()}, .y = {.title = up.title()}, .series = {}};
   const auto by_value = groups(table, columns, x);
   for (const auto& [value, runs] : by_value) {
@@ -89,8 +88,8 @@ Chart figure_chart(const CsvTable& table, const SweepColumns& columns, std::size
     Series series{.label = {}, .x = {}, .y = {}, .style = SeriesStyle::line_with_points};
     if (by_value.size() > 1) {
       const std::size_t other = columns.parameters[0] == x ? columns.parameters[1] : columns.parameters[0];
-      const ShownColumn column = shown_column(table.names[other], table.columns[other]);
-      series.label = fmt::format("{} {} {}", column.words, shown(column.values[runs.front()]), column.unit);
+      const ShownColumn column = shown_column(table, other);
+      series.label = fmt::format("{} {} {}", column.words, column.cell(runs.front()), column.unit);
     } else if (columns.parameters.size() > 1) {
       series.style = SeriesStyle::points;
     }

@@ -92,8 +92,8 @@ RunSet sweep_runs(const Session& session) {
   const std::size_t converged = table.find("converged");
   for (std::size_t j = 1; j < table.names.size(); ++j) {
     if (j == converged) continue;
-    ShownColumn column = shown_column(table.names[j], table.columns[j]);
-    runs.columns.push_back({.words = std::move(column.words),
+    ShownColumn column = shown_column(table, j);
+    runs.columns.push_back({.words = column.names.empty() ? std::move(column.words) : column.title(),
                             .unit = std::move(column.unit),
                             .values = std::move(column.values),
                             .is_key = j < converged});
