@@ -1,6 +1,6 @@
 #include "solver/calibration/residual_emulator.h"
 
-#include <Eigen/Cholesky>
+#include "solver/linear/dense_algebra.h"
 
 #include <utility>
 
@@ -54,7 +54,7 @@ void ResidualEmulator::fit(double variance) {
   }
   MatrixXd normal = A.transpose() * A;
   normal.diagonal().array() += 1e-10 * normal.diagonal().maxCoeff();
-  const MatrixXd inverse = normal.ldlt().solve(MatrixXd::Identity(q, q));
+  const MatrixXd inverse = inverse_of_symmetric(normal);
   coefficients_ = inverse * (A.transpose() * R);
   const VectorXd leverage = (A * inverse).cwiseProduct(A).rowwise().sum();
   const MatrixXd misses =

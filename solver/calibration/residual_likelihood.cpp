@@ -1,9 +1,9 @@
 #include "solver/calibration/residual_likelihood.h"
 
 #include "physics/random_numbers.h"
+#include "solver/linear/dense_algebra.h"
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 
 #include <algorithm>
 #include <cmath>
@@ -104,9 +104,9 @@ void ResidualsWithDiscrepancy::find_modes() {
   const VectorXd weights = per_discrepancy_.cwiseQuotient(roots_);
   for (Modes& modes : modes_) {
     const MatrixXd L = factor_of(places_, weights, modes.length);
-    const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(L.transpose() * L);
-    modes.values = solver.eigenvalues().cwiseMax(1e-14 * solver.eigenvalues().maxCoeff());
-    modes.basis = L * solver.eigenvectors() * modes.values.cwiseSqrt().cwiseInverse().asDiagonal();
+    const auto [values, vectors] = symmetric_modes(L.transpose() * L);
+    modes.values = values.cwiseMax(1e-14 * values.maxCoeff());
+    modes.basis = L * vectors * modes.values.cwiseSqrt().cwiseInverse().asDiagonal();
   }
   for (Node& node : nodes_) {
     const Eigen::ArrayXd grown = node.ratio * node.ratio * modes_[node.modes].values.array();

@@ -35,6 +35,13 @@ Eigen::Index rank(const MatrixXd& A, double threshold) {
 
 VectorXd solve_symmetric(const MatrixXd& A, const VectorXd& b) { return A.ldlt().solve(b); }
 
+MatrixXd inverse_of_symmetric(const MatrixXd& A) { return A.ldlt().solve(MatrixXd::Identity(A.rows(), A.cols())); }
+
+SymmetricModes symmetric_modes(const MatrixXd& A) {
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(A);
+  return {solver.eigenvalues(), solver.eigenvectors()};
+}
+
 Eigen::VectorXcd eigenvalues(const MatrixXd& A) { return A.eigenvalues(); }
 
 SingularValues singular_values(const MatrixXd& A) {

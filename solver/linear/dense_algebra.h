@@ -21,6 +21,17 @@ Eigen::Index rank(const Eigen::MatrixXd& A, double threshold);
 /// x of A x = b, A symmetric and positive or negative semi-definite, by LDL^T. A: (n, n); b: (n).
 Eigen::VectorXd solve_symmetric(const Eigen::MatrixXd& A, const Eigen::VectorXd& b);
 
+/// The inverse of a symmetric matrix, positive or negative definite, by LDL^T. A, result: (n, n).
+Eigen::MatrixXd inverse_of_symmetric(const Eigen::MatrixXd& A);
+
+/// A = vectors diag(values) vectors^T of a symmetric matrix; values ascend, the columns of `vectors` are orthonormal.
+/// A: (n, n), of which the lower triangle is read; values: (n); vectors: (n, n).
+struct SymmetricModes {
+  Eigen::VectorXd values;
+  Eigen::MatrixXd vectors;
+};
+SymmetricModes symmetric_modes(const Eigen::MatrixXd& A);
+
 /// Eigenvalues of a real matrix that need not be symmetric, in no order. A: (n, n).
 Eigen::VectorXcd eigenvalues(const Eigen::MatrixXd& A);
 

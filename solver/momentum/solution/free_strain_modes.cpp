@@ -1,9 +1,8 @@
 #include "solver/momentum/solution/free_strain_modes.h"
 
+#include "solver/linear/dense_algebra.h"
 #include "solver/momentum/solution/momentum_solver.h"
 #include "solver/parallel.h"
-
-#include <Eigen/Eigenvalues>
 
 #include <algorithm>
 #include <cmath>
@@ -70,9 +69,9 @@ void FreeStrainModes::build(const MomentumOperator& balance) {
     softest = std::min(softest, unknowns_.motion.free_strains[k].modulus);
   }
   // Faces that soften may leave no stiffness.
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(0.5 * (coarse + coarse.transpose()));
-  const Eigen::VectorXd bounded = solver.eigenvalues().cwiseMax(least_modulus * softest * unknowns_.motion.size.prod());
-  factors_.compute(solver.eigenvectors() * bounded.asDiagonal() * solver.eigenvectors().transpose());
+  const auto [values, vectors] = symmetric_modes(0.5 * (coarse + coarse.transpose()));
+  const Eigen::VectorXd bounded = values.cwiseMax(least_modulus * softest * unknowns_.motion.size.prod());
+  give_ = vectors * bounded.cwiseInverse().asDiagonal() * vectors.transpose();
 }
 
 Eigen::VectorXd FreeStrainModes::projected(const std::vector<Vector>& r) const {
@@ -83,7 +82,7 @@ Eigen::VectorXd FreeStrainModes::projected(const std::vector<Vector>& r) const {
 }
 
 void FreeStrainModes::correct(const std::vector<Vector>& r, std::vector<Vector>& z) const {
-  const Eigen::VectorXd share = factors_.solve(projected(r));
+  const Eigen::VectorXd share = give_ * projected(r);
   parallel_for(count_of(z), [&](Index i) {
     for (std::size_t k = 0; k < modes_.size(); ++k) z[i] += share[k] * modes_[k][i].cast<double>();
   });

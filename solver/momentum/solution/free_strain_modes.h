@@ -10,7 +10,7 @@
 #include "solver/momentum/momentum.h"
 #include "solver/momentum/solution/preconditioner.h"
 
-#include <Eigen/Cholesky>
+#include <Eigen/Core>
 
 #include <vector>
 
@@ -36,7 +36,7 @@ class FreeStrainModes {
   const Unknowns& unknowns_;
   const LinearSolver* linear_;
   std::vector<std::vector<Single>> modes_;
-  Eigen::LLT<Eigen::MatrixXd> factors_;
+  Eigen::MatrixXd give_;  // (modes, modes): their amplitudes by forces on them
 };
 
 }  // namespace pfdm

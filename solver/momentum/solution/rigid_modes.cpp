@@ -1,9 +1,7 @@
 #include "solver/momentum/solution/rigid_modes.h"
 
+#include "solver/linear/dense_algebra.h"
 #include "solver/momentum/momentum.h"
-
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
 
 #include <algorithm>
 #include <array>
@@ -52,7 +50,7 @@ class RigidModes {
     Eigen::VectorXd share(on.size());
     share.head(n_local_) = locally(on.head(n_local_));
     if (n_whole() > 0) {
-      share.tail(n_whole()) = whole_.solve(on.tail(n_whole()) - coupling_.transpose() * share.head(n_local_));
+      share.tail(n_whole()) = give_of_whole_ * (on.tail(n_whole()) - coupling_.transpose() * share.head(n_local_));
       share.head(n_local_) -= locally(coupling_ * share.tail(n_whole()));
     }
     for (std::size_t k = 0; k < modes_.size(); ++k)
@@ -214,10 +212,9 @@ class RigidModes {
     }
     group.give.clear();
     for (std::size_t i = 0; i < stiffness.size(); ++i) {  // what has debonded moves freely
-      const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(0.5 * (stiffness[i] + stiffness[i].transpose()));
-      const Eigen::VectorXd bounded = solver.eigenvalues().cwiseMax(least_stiffness * softest_ * group.length[i]);
-      group.give.emplace_back(group.share * solver.eigenvectors() * bounded.cwiseInverse().asDiagonal() *
-                              solver.eigenvectors().transpose());
+      const auto [values, vectors] = symmetric_modes(0.5 * (stiffness[i] + stiffness[i].transpose()));
+      const Eigen::VectorXd bounded = values.cwiseMax(least_stiffness * softest_ * group.length[i]);
+      group.give.emplace_back(group.share * vectors * bounded.cwiseInverse().asDiagonal() * vectors.transpose());
     }
   }
 
@@ -231,7 +228,7 @@ class RigidModes {
       whole.col(k) = on.tail(n_whole());
       relieved.col(k) = locally(coupling_.col(k));
     }
-    whole_.compute(whole - coupling_.transpose() * relieved);
+    give_of_whole_ = inverse_of_symmetric(whole - coupling_.transpose() * relieved);
   }
 
   const Mesh& mesh_;
@@ -241,7 +238,7 @@ class RigidModes {
   Index n_local_ = 0;
   double softest_ = std::numeric_limits<double>::infinity();
   Eigen::MatrixXd coupling_;
-  Eigen::PartialPivLU<Eigen::MatrixXd> whole_;
+  Eigen::MatrixXd give_of_whole_;
 };
 
 class WithRigidModes : public Preconditioner {
