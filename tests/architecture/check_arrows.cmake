@@ -44,7 +44,7 @@ set(rooms
      solver/fracture/cells solver/fracture/damage solver/fracture/equilibrium"
     "solver/fracture/derivatives: physics mesh solver solver/linear solver/momentum solver/fracture/model solver/fracture/cells
      solver/fracture/damage solver/fracture/equilibrium solver/fracture"
-    "solver/fracture/words: physics mesh solver solver/linear solver/momentum solver/fracture/model solver/fracture"
+    "solver/fracture/words: physics mesh solver solver/linear solver/momentum solver/fracture/model solver/fracture/cells solver/fracture"
     "solver/homogenization: physics mesh solver solver/linear solver/scalar solver/momentum"
     "solver/calibration: physics solver solver/linear"
     "solver/point: physics solver solver/linear solver/calibration"

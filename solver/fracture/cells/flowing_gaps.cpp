@@ -32,8 +32,7 @@ struct GapEnergies {
 FlowingGaps::FlowingGaps(const Mesh& mesh, const CellField<const Material*>& materials, const FractureModel& model)
     : mesh_(mesh), model_(model), material_(materials) {
   for (Index c = 0; c < material_.size(); ++c) {
-    const bool can_flow = mesh.shape[c] != CellShape::polyhedron && mesh.shape[c] != CellShape::pyramid;
-    if (material_[c] != nullptr && !(material_[c]->flows() && can_flow)) material_[c] = nullptr;
+    if (material_[c] != nullptr && !(material_[c]->flows() && can_flow(mesh.shape[c]))) material_[c] = nullptr;
     any_ = any_ || material_[c] != nullptr;
   }
   start_step();

@@ -25,8 +25,10 @@ namespace pfdm {
 
 class FlowingGaps {
  public:
-  /// Gaps of cells with these materials; null: elastic; empty: all elastic. So are those of polyhedra, whose rough
-  /// modes grow otherwise, and of pyramids.
+  /// Whether gaps of such cells flow: not of polyhedra, whose rough modes grow otherwise, nor of pyramids.
+  static bool can_flow(CellShape shape) { return shape != CellShape::polyhedron && shape != CellShape::pyramid; }
+
+  /// Gaps of cells with these materials; null: elastic; empty: all elastic. So are those that cannot flow.
   FlowingGaps(const Mesh& mesh, const CellField<const Material*>& materials, const FractureModel& model);
 
   bool any() const { return any_; }

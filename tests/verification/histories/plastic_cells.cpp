@@ -2,9 +2,11 @@
 // pressure (Hill, The Mathematical Theory of Plasticity, 1950, ch. V.2), and the account of work, stored energy and
 // heat.
 
+#include "mesh/dual.h"
 #include "mesh/generators/sphere_sector.h"
 #include "physics/materials/j2_plasticity.h"
 #include "solver/fracture/fracture_run.h"
+#include "solver/fracture/words/stiffness_words.h"
 #include "tests/verification/support.h"
 
 #include <gtest/gtest.h>
@@ -175,14 +177,18 @@ struct BarForces {
   double half = 0.0, end = 0.0, account = 0.0;
 };
 
-BarForces forces_on_clamped_bar(const Mesh& mesh, const IsotropicElasticity& metal) {
+FractureModel clamped_bar(const IsotropicElasticity& metal) {
   const auto held = [](double share) {
     return [share](const Vector&, double t) -> Vector { return share * t * Vector::UnitZ(); };
   };
   FractureModel model = elastic_model(
       {metal}, {moved("zmin", {true, true, true}, held(0.0)), moved("zmax", {true, true, true}, held(0.04))});
   model.regions[0].material = make_j2_plasticity(metal, {.yield_stress = Y});
-  FractureRun run(mesh, model, {.energy_tolerance = 1e-6, .equilibrium_tolerance = 1e-6}, in_steps(20));
+  return model;
+}
+
+BarForces forces_on_clamped_bar(const Mesh& mesh, const IsotropicElasticity& metal) {
+  FractureRun run(mesh, clamped_bar(metal), {.energy_tolerance = 1e-6, .equilibrium_tolerance = 1e-6}, in_steps(20));
   const auto patch = mesh.patch_index("zmax");
   BarForces forces;
   run_to_end(run, [&](const FractureState&, const StepReport& report) {
@@ -214,6 +220,22 @@ TEST(PlasticCells, AClampedBarBearsItsLimitLoad) {
     EXPECT_NEAR(forces.end, forces.half, 2e-3) << body.name;
     EXPECT_LT(forces.account, 0.05) << body.name;
   }
+}
+
+// What the warning on such cells says of them.
+TEST(PlasticCells, PolyhedraAreTooStrongAndSaidToBe) {
+  const Mesh tetrahedra = make_particles_in_box({.upper = Vector(1.0, 1.0, 2.0), .particles = {}, .size_far = 0.35}),
+             polyhedra = barycentric_dual(tetrahedra);
+  FractureModel model = clamped_bar(steel);
+  EXPECT_TRUE(stiffness_warnings(tetrahedra, model).empty());
+  const std::vector<std::string> warnings = stiffness_warnings(polyhedra, model);
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_NE(warnings.front().find("(j2_plasticity): "), std::string::npos) << warnings.front();
+  model.regions[0].material = nullptr;
+  EXPECT_TRUE(stiffness_warnings(polyhedra, model).empty());
+  const BarForces forces = forces_on_clamped_bar(polyhedra, steel);
+  EXPECT_NEAR(forces.half, 1.15, 0.02);
+  EXPECT_NEAR(forces.end, 1.3, 0.02);
 }
 
 }  // namespace
