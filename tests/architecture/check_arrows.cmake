@@ -36,7 +36,8 @@ set(rooms
      solver/momentum"
     "solver/dynamics: physics mesh solver solver/linear solver/scalar solver/momentum"
     "solver/fracture/model: physics mesh solver solver/linear solver/scalar solver/heat solver/momentum"
-    "solver/fracture/cells: physics mesh solver solver/linear solver/momentum solver/fracture/model"
+    "solver/fracture/gaps: physics mesh solver solver/momentum solver/fracture/model"
+    "solver/fracture/cells: physics mesh solver solver/linear solver/momentum solver/fracture/model solver/fracture/gaps"
     "solver/fracture/damage: physics mesh solver solver/linear solver/scalar solver/fracture/model"
     "solver/fracture/equilibrium: physics mesh solver solver/linear solver/scalar solver/momentum solver/fracture/model
      solver/fracture/cells solver/fracture/damage"
@@ -44,7 +45,7 @@ set(rooms
      solver/fracture/cells solver/fracture/damage solver/fracture/equilibrium"
     "solver/fracture/derivatives: physics mesh solver solver/linear solver/momentum solver/fracture/model solver/fracture/cells
      solver/fracture/damage solver/fracture/equilibrium solver/fracture"
-    "solver/fracture/words: physics mesh solver solver/linear solver/momentum solver/fracture/model solver/fracture/cells solver/fracture"
+    "solver/fracture/words: physics mesh solver solver/linear solver/momentum solver/fracture/model solver/fracture/gaps solver/fracture"
     "solver/homogenization: physics mesh solver solver/linear solver/scalar solver/momentum"
     "solver/calibration: physics solver solver/linear"
     "solver/point: physics solver solver/linear solver/calibration"

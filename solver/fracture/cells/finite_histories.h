@@ -8,7 +8,7 @@
 // holds a state.
 
 #include "physics/materials/hyperelastic.h"
-#include "solver/fracture/cells/relaxing_gaps.h"
+#include "solver/fracture/gaps/relaxing_gaps.h"
 #include "solver/fracture/model/fracture_model.h"
 #include "solver/fracture/model/state.h"
 

@@ -35,10 +35,13 @@ MaterialCells::MaterialCells(const Mesh& mesh, const FractureModel& model)
     : mesh_(mesh),
       model_(model),
       material_(materials_of(mesh, model)),
-      gaps_(mesh, material_, model),
-      flowing_(mesh, material_, model) {
+      memories_(gap_memories(mesh, material_, model)) {
   any_ = material_.size() > 0;
   if (!any_) return;
+  memory_ = CellField<GapMemory*>(mesh.n_cells(), nullptr);
+  for (const auto& memory : memories_)
+    for (Index c = 0; c < mesh.n_cells(); ++c)
+      if (memory->has(c)) memory_[c] = memory.get();
   tangent_ = CellField<MandelMatrix>(mesh.n_cells());
   start_step(0.0);
 }
@@ -46,10 +49,9 @@ MaterialCells::MaterialCells(const Mesh& mesh, const FractureModel& model)
 void MaterialCells::start_step(double duration, const CellField<double>& shift) {
   duration_ = duration;
   shift_ = shift;
-  gaps_.start_step(duration, shift);
-  flowing_.start_step();
+  for (const auto& memory : memories_) memory->start_step(duration, shift);
   parallel_for(any_ ? mesh_.n_cells() : 0, [&](Index c) {
-    if (has(c)) tangent_[c] = stiffness_matrix(gaps_.has(c) ? gaps_.elasticity(c) : material_[c]->elasticity());
+    if (has(c)) tangent_[c] = stiffness_matrix(memory_[c] ? memory_[c]->elasticity(c) : material_[c]->elasticity());
   });
 }
 
@@ -61,7 +63,7 @@ void MaterialCells::hold(CellHistories& histories) {
     const std::span<double> of_law = histories.of(c).first(n);
     const std::vector<double> from(of_law.begin(), of_law.end());
     tangent_[c] = by_strain(material_[c]->update({strain, strain, duration(c), from}, of_law).tangent);
-    if (gaps_.has(c)) gaps_.hold(c, histories.of(c).subspan(n));
+    if (memory_[c]) memory_[c]->hold(c, histories.of(c).subspan(n));
   });
 }
 
@@ -75,12 +77,9 @@ double MaterialCells::advance(Index cell, const CellMechanics& mechanics, const 
   const MaterialStep step{from.gradient(cell), strain, duration(cell), law_numbers(cell, from)};
   const MaterialResponse result = material.update(step, to.of(cell).first(n));
   if (!result.solved) return std::numeric_limits<double>::quiet_NaN();
-  if (gaps_.has(cell))
-    gaps_.advance(cell, mechanics.volume_changes[cell], mechanics.gaps, gap_numbers(cell, from),
-                  to.of(cell).subspan(n));
-  if (flowing_.has(cell))
-    flowing_.advance(cell, material.left_by_flow(step, law_numbers(cell, to)), mechanics, gap_numbers(cell, from),
-                     to.of(cell).subspan(n));
+  if (memory_[cell])
+    memory_[cell]->advance(cell, material.left_by_flow(step, law_numbers(cell, to)), mechanics, gap_numbers(cell, from),
+                           to.of(cell).subspan(n));
   to.gradient(cell) = strain;
   tangent_[cell] = by_strain(result.tangent);
   const Mandel stress = to_mandel(result.stress);
@@ -94,24 +93,22 @@ LinearStress MaterialCells::linearised(Index cell, const CellHistories& historie
 }
 
 IsotropicElasticity MaterialCells::beyond_elasticity(Index cell) const {
-  if (!gaps_.has(cell) && !flowing_.has(cell)) return {};
-  const IsotropicElasticity now = gaps_.has(cell) ? gaps_.elasticity(cell) : flowing_.elasticity(cell),
-                            &at_once = material_[cell]->elasticity();
+  if (!memory_[cell]) return {};
+  const IsotropicElasticity now = memory_[cell]->elasticity(cell), &at_once = material_[cell]->elasticity();
   return {.lambda = now.lambda - at_once.lambda, .mu = now.mu - at_once.mu};
 }
 
 HistoryStress MaterialCells::history_stress(const CellHistories& histories) const {
   const std::size_t n = mesh_.n_cells();
   HistoryStress history{.stress = CellField<LinearStress>(n)};
-  if (!gaps_.any() && !flowing_.any()) return history;
+  if (memories_.empty()) return history;
   history.sound = CellField<IsotropicElasticity>(n);
   history.relaxes = CellField<char>(n, 0);
   history.volumes = CellField<VolumeStress>(n);
   history.gaps.resize(mesh_.cell_faces.size());
   parallel_for(mesh_.n_cells(), [&](Index c) {
     history.sound[c] = model_.in_cell(mesh_, c).elasticity;
-    if (gaps_.has(c)) gaps_.tell(c, gap_numbers(c, histories), RelaxingGaps::At::end, history);
-    if (flowing_.has(c)) flowing_.tell(c, gap_numbers(c, histories), history);
+    if (memory_[c]) memory_[c]->tell(c, gap_numbers(c, histories), history);
   });
   return history;
 }
@@ -119,10 +116,9 @@ HistoryStress MaterialCells::history_stress(const CellHistories& histories) cons
 MaterialEnergy MaterialCells::energy(Index cell, const CellHistories& histories) const {
   MaterialEnergy energy = material_[cell]->energy(histories.gradient(cell), law_numbers(cell, histories),
                                                   model_.split_of(model_.in_cell(mesh_, cell)));
-  if (!gaps_.has(cell) && !flowing_.has(cell)) return energy;
-  const std::span<const double> gaps = gap_numbers(cell, histories);
-  energy.locked += gaps_.has(cell) ? RelaxingGaps::locked(gaps) : FlowingGaps::locked(gaps);
-  energy.dissipated += gaps_.has(cell) ? RelaxingGaps::dissipated(gaps) : FlowingGaps::dissipated(gaps);
+  if (!memory_[cell]) return energy;
+  energy.locked += GapMemory::locked(gap_numbers(cell, histories));
+  energy.dissipated += GapMemory::dissipated(gap_numbers(cell, histories));
   return energy;
 }
 
@@ -131,7 +127,7 @@ CellHistories MaterialCells::virgin_histories() const {
   std::vector<std::size_t> sizes;
   sizes.reserve(mesh_.n_cells());
   for (Index c = 0; c < mesh_.n_cells(); ++c)
-    sizes.push_back(has(c) ? material_[c]->history_size() + gaps_.size(c) + flowing_.size(c) : 0);
+    sizes.push_back(has(c) ? material_[c]->history_size() + (memory_[c] ? memory_[c]->size(c) : 0) : 0);
   CellHistories histories(sizes);
   for (Index c = 0; c < mesh_.n_cells(); ++c)
     if (has(c)) material_[c]->start(histories.of(c).first(material_[c]->history_size()));

@@ -13,10 +13,12 @@
 
 #include "mesh/mesh.h"
 #include "physics/elasticity/linear_stress.h"
-#include "solver/fracture/cells/flowing_gaps.h"
-#include "solver/fracture/cells/relaxing_gaps.h"
+#include "solver/fracture/gaps/gap_memory.h"
 #include "solver/fracture/model/fracture_model.h"
 #include "solver/fracture/model/state.h"
+
+#include <memory>
+#include <vector>
 
 namespace pfdm {
 
@@ -62,8 +64,8 @@ class MaterialCells {
   double duration_ = 0.0;                // of the step [s]
   CellField<double> shift_;              // a_T in it; empty: 1
   CellField<const Material*> material_;  // null: elastic
-  RelaxingGaps gaps_;
-  FlowingGaps flowing_;
+  std::vector<std::unique_ptr<GapMemory>> memories_;
+  CellField<GapMemory*> memory_;     // of the gaps of each cell; null: elastic
   CellField<MandelMatrix> tangent_;  // [Pa]; empty without such cells
 };
 

@@ -1,7 +1,7 @@
 #include "solver/fracture/words/stiffness_words.h"
 
 #include "physics/quantity_text.h"
-#include "solver/fracture/cells/flowing_gaps.h"
+#include "solver/fracture/gaps/flowing_gaps.h"
 #include "solver/fracture/model/relaxing_volume.h"
 #include "solver/momentum/bending/confined_layers.h"
 

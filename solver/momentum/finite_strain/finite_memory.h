@@ -2,7 +2,7 @@
 // Memory of the gaps at the faces of viscoelastic cells at finite strain. A gap is the part of a face's displacement
 // that the gradient of the cell does not have, y = u_f - u_c - H d; turned back by the rotation R of the cell and over
 // the distance of the face it is a strain z, borne by the branches as any other
-// (solver/fracture/cells/relaxing_gaps.h). What they have left of earlier gaps is an initial traction of the side
+// (solver/fracture/gaps/relaxing_gaps.h). What they have left of earlier gaps is an initial traction of the side
 // beside a y,
 //
 //   x + (m (c.x) + b) c,  x = share R sum mu_i left_i,  m = lambda/mu of the branches + phi(J)

@@ -1,4 +1,4 @@
-#include "solver/fracture/cells/flowing_gaps.h"
+#include "solver/fracture/gaps/flowing_gaps.h"
 
 #include "solver/momentum/body/momentum_faces.h"
 #include "solver/momentum/body/unknowns.h"
@@ -35,14 +35,16 @@ FlowingGaps::FlowingGaps(const Mesh& mesh, const CellField<const Material*>& mat
     if (material_[c] != nullptr && !(material_[c]->flows() && can_flow(mesh.shape[c]))) material_[c] = nullptr;
     any_ = any_ || material_[c] != nullptr;
   }
-  start_step();
+  FlowingGaps::start_step(0.0, {});
 }
 
 std::size_t FlowingGaps::size(Index cell) const {
-  return has(cell) ? places::faces + places::per_face * mesh_.faces_of_cell(cell).size() : 0;
+  return places::faces + places::per_face * mesh_.faces_of_cell(cell).size();
 }
 
-void FlowingGaps::start_step() { left_ = CellField<double>(any_ ? material_.size() : 0, 1.0); }
+void FlowingGaps::start_step(double, const CellField<double>&) {
+  left_ = CellField<double>(any_ ? material_.size() : 0, 1.0);
+}
 
 // In plane stress the modulus along a face's normal is linear in mu at one Poisson's ratio alone.
 bool FlowingGaps::keeps_ratio(Index cell) const {

@@ -1,4 +1,4 @@
-#include "solver/fracture/cells/relaxing_gaps.h"
+#include "solver/fracture/gaps/relaxing_gaps.h"
 
 #include "solver/fracture/model/relaxing_volume.h"
 #include "solver/momentum/body/momentum_faces.h"
@@ -64,7 +64,7 @@ RelaxingGaps::RelaxingGaps(const Mesh& mesh, const CellField<const Material*>& m
     }
     kind_[c] = at->second;
   }
-  start_step(0.0);
+  RelaxingGaps::start_step(0.0, {});
 }
 
 RelaxingGaps::Moment RelaxingGaps::moment_of(const Kind& kind, double duration) {
@@ -91,7 +91,6 @@ void RelaxingGaps::start_step(double duration, const CellField<double>& shift) {
 }
 
 std::size_t RelaxingGaps::size(Index cell) const {
-  if (!has(cell)) return 0;
   const Kind& by = kind(cell);
   return by.per_cell() + mesh_.faces_of_cell(cell).size() * by.per_face();
 }
