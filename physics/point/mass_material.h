@@ -29,6 +29,7 @@ struct HereditaryTerm {
 };
 
 inline constexpr double standard_gravity = 9.80665;  ///< g0 [m/s^2]
+inline constexpr double g0_squared = standard_gravity * standard_gravity;
 
 struct MassMaterial {
   double mass = 1.0;                ///< m [kg]

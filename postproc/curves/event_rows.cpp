@@ -1,6 +1,7 @@
 #include "postproc/curves/event_rows.h"
 
 #include "physics/error.h"
+#include "postproc/curves/recorded_jumps.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,7 +12,6 @@ namespace pfdm {
 namespace {
 
 constexpr double surely_on_its_side = 3.0;  // standard deviations of a jump's displacement
-constexpr std::size_t most_rows = 8;        // that one force is of, as of recorded_jumps()
 
 bool is_on_wrong_side(const MeasuredPoints::Point& point, const MeasuredEvent& event) {
   return event.kind == EventKind::jump && event.specimen == point.specimen &&
@@ -32,7 +32,7 @@ void mark_points_of(const MeasuredFigure& force, const MeasuredEvent& event,
     if (points[i].specimen == event.specimen && is_on_side_of(force.figure, points[i], event.place))
       nearest.push_back(i);
   std::ranges::stable_sort(nearest, {}, [&](std::size_t i) { return std::abs(points[i].x - event.place); });
-  nearest.resize(std::min(nearest.size(), most_rows));
+  nearest.resize(std::min(nearest.size(), rows_of_force));
   double known = 0.0;  // of the force, over what its standard deviation says
   for (const std::size_t i : nearest) {
     if (known > as_well) return;

@@ -7,9 +7,9 @@
 namespace pfdm {
 namespace {
 
-constexpr std::size_t most_rows = 8, least_rows = 4;  // of a line
-constexpr double significant = 4.0;                   // standard errors of a fall
-constexpr std::size_t nearby = 3;                     // gaps in which the jump may be as well
+constexpr std::size_t least_rows = 4;  // of a line
+constexpr double significant = 4.0;    // standard errors of a fall
+constexpr std::size_t nearby = 3;      // gaps in which the jump may be as well
 
 /// Least squares through rows [first, end), each with the weight of its standard deviation.
 struct Line {
@@ -69,8 +69,10 @@ Gap gap_behind(const SampledCurve& rows, std::size_t row, std::size_t first, std
           .after = line_through(rows, row + 1, end)};
 }
 
-std::size_t first_row(std::size_t row) { return row + 1 >= most_rows ? row + 1 - most_rows : 0; }
-std::size_t end_row(const SampledCurve& rows, std::size_t row) { return std::min(row + 1 + most_rows, rows.x.size()); }
+std::size_t first_row(std::size_t row) { return row + 1 >= rows_of_force ? row + 1 - rows_of_force : 0; }
+std::size_t end_row(const SampledCurve& rows, std::size_t row) {
+  return std::min(row + 1 + rows_of_force, rows.x.size());
+}
 
 /// Of gaps close to each other the one with the largest fall.
 std::vector<std::size_t> rows_before_falls(const SampledCurve& rows, double least) {
@@ -83,7 +85,7 @@ std::vector<std::size_t> rows_before_falls(const SampledCurve& rows, double leas
   std::vector<std::size_t> found;
   for (const Gap& gap : gaps) {
     const auto is_near = [&](std::size_t other) {
-      return std::max(other, gap.row) - std::min(other, gap.row) < most_rows;
+      return std::max(other, gap.row) - std::min(other, gap.row) < rows_of_force;
     };
     if (std::ranges::none_of(found, is_near)) found.push_back(gap.row);
   }

@@ -9,8 +9,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr double g0_squared = standard_gravity * standard_gravity;
-
 Json to_json(const AnalysedRecord& r) {
   Json json = {{"name", r.name},           {"file", r.file},       {"date", r.date ? Json(*r.date) : Json()},
                {"remark", r.remark},       {"motion", r.motion},   {"sampling_rate_Hz", r.rate},

@@ -8,7 +8,7 @@
 namespace pfdm {
 namespace {
 
-constexpr int per_decade = 6;        // of the fine grid
+constexpr int fine_per_decade = 6;   // of the fine grid
 constexpr double small_part = 0.02;  // of all moduli: a branch that is added
 
 /// Rows of the linear problem in the moduli.
@@ -164,9 +164,9 @@ PronyLaw law_of_branches(const PronyLaw& law, bool holds_relaxed, const Viscoela
                          std::span<const double> deviations, int n) {
   const TimeWindow window = time_window(experiments);
   const double decades = std::log10(window.longest / window.shortest);
-  const int points = std::clamp(static_cast<int>(std::ceil(per_decade * decades)) + 1, 2, 80);
+  const int points = std::clamp(static_cast<int>(std::ceil(fine_per_decade * decades)) + 1, 2, 80);
   PronyLaw result = law_of_times(law, holds_relaxed, experiments, deviations, spread_times(window, points));
-  join_near(result.shear, std::pow(10.0, 1.5 / per_decade), static_cast<std::size_t>(n));
+  join_near(result.shear, std::pow(10.0, 1.5 / fine_per_decade), static_cast<std::size_t>(n));
   while (std::ssize(result.shear) < n) result = with_one_more(result, window);
   return result;
 }

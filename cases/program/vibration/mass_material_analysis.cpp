@@ -20,8 +20,6 @@ namespace {
 namespace fs = std::filesystem;
 using Eigen::VectorXd;
 
-constexpr double g0_squared = standard_gravity * standard_gravity;
-
 /// What the columns come from, for the head of each file.
 std::string head_of(const VibrationRecord& r, const std::string& what) {
   return fmt::format("{} of the record {}{}{}", what, r.name, r.remark.empty() ? "" : "; its file says: ", r.remark);

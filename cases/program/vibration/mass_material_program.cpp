@@ -98,7 +98,7 @@ SimulatedTest simulate_test(const MassMaterialCase& c, std::size_t number) {
   return result;
 }
 
-std::string remark(const MassMaterialProgram& program, const VibrationTest& test) {
+std::string remark_on(const MassMaterialProgram& program, const VibrationTest& test) {
   const MassMaterialCase& c = program.parsed;
   return fmt::format("synthetic: simulated, not measured; case {}, test {}, model {}{}", program.name, test.name,
                      c.structure, c.signal_to_noise ? fmt::format(", noise at -{:g} dB", *c.signal_to_noise) : "");
@@ -179,7 +179,7 @@ void run_tests(const MassMaterialProgram& program, Session& session, const fs::p
       continue;
     }
     const SimulatedTest simulated = simulate_test(c, i);
-    const std::string says = remark(program, test);
+    const std::string says = remark_on(program, test);
     write_record(folder / (test.name + ".csv"), says, simulated);
     if (test.excitation->frequency)
       write_harmonics(folder / fmt::format("{}{}.csv", test.name, result_endings[0]), says, simulated.record,

@@ -50,7 +50,7 @@ void add_motion(const MassMaterialCase& c, bool random, int planned, std::vector
     ++done;
   }
   for (const auto& [level, text] : days) {
-    rows[0].push_back(random ? fmt::format("random, {:.4g} g0²/Hz, day", level / (standard_gravity * standard_gravity))
+    rows[0].push_back(random ? fmt::format("random, {:.4g} g0²/Hz, day", level / g0_squared)
                              : fmt::format("harmonic, {:.4g} g0, day", level / standard_gravity));
     rows[1].push_back(text);
   }

@@ -20,8 +20,6 @@ namespace {
 namespace fs = std::filesystem;
 using Eigen::VectorXd;
 
-constexpr double g0_squared = standard_gravity * standard_gravity;
-
 struct TestStory {
   const MassMaterialProgram& program;
   const VibrationTest& test;

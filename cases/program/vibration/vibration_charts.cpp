@@ -81,8 +81,8 @@ BandSpectra in_band(const Spectra& s, const VibrationRecord& record) {
   for (Eigen::Index i = 0; i < s.frequency.size(); ++i) {
     if (s.frequency[i] < record.band_low || s.frequency[i] > record.band_high) continue;
     result.frequency.push_back(s.frequency[i]);
-    result.base.push_back(s.Sxx[i] / (standard_gravity * standard_gravity));
-    result.relative.push_back(s.Syy[i] / (standard_gravity * standard_gravity));
+    result.base.push_back(s.Sxx[i] / g0_squared);
+    result.relative.push_back(s.Syy[i] / g0_squared);
     result.magnitude.push_back(std::abs(H[i]));
     result.magnitude_h2.push_back(std::abs(H2[i]));
     result.magnitude_hv.push_back(std::abs(Hv[i]));
@@ -152,7 +152,7 @@ Picture spectrogram_picture(const Spectrogram& s, double highest_frequency) {
   for (Eigen::Index i = 0; i + dx <= s.time.size(); i += dx)
     for (Eigen::Index k = 0; k + dy <= rows; k += dy) {
       // The largest of what the cell covers: a narrow line must not fade.
-      const double density = s.density.block(k, i, dy, dx).maxCoeff() / (standard_gravity * standard_gravity);
+      const double density = s.density.block(k, i, dy, dx).maxCoeff() / g0_squared;
       const double value = std::log10(std::max(density, 1e-300));
       const Eigen::Index a = i / dx, b = k / dy;
       picture.cells.push_back({{{t[a], f[b]}, {t[a + 1], f[b]}, {t[a + 1], f[b + 1]}, {t[a], f[b + 1]}}, value});

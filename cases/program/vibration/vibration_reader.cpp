@@ -126,13 +126,13 @@ Eigen::Index samples_apart(const Channel& early, const Channel& late, const std:
   if (!(std::abs(step(*late.time) / h - 1.0) < 1e-3))
     throw InputError(fmt::format("{}: it has {:.6g} samples per second, the other file {:.6g}", file.string(), 1.0 / h,
                                  1.0 / step(*late.time)));
-  const double samples = ((*late.time)[0] - (*early.time)[0]) / h;
-  if (!(std::abs(samples - std::round(samples)) < 0.1))
+  const double apart = ((*late.time)[0] - (*early.time)[0]) / h;
+  if (!(std::abs(apart - std::round(apart)) < 0.1))
     throw InputError(
         fmt::format("{}: its samples lie {:.3g} of a sampling interval beside those of the other file; bring "
                     "both on the same times",
-                    file.string(), std::abs(samples - std::floor(samples))));
-  return std::llround(samples);
+                    file.string(), std::abs(apart - std::floor(apart))));
+  return std::llround(apart);
 }
 
 /// Cuts two channels to what both have, by their clocks; without clocks both begin together.

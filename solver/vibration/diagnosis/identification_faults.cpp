@@ -47,12 +47,12 @@ VibrationRecord scaled(VibrationRecord r, double factor) {
 }
 
 /// z'', z', z of the record, by integration within the band, and the base.
-struct Motion {
+struct FilteredMotion {
   MatrixXd terms;
   VectorXd base;
 };
-Motion motion_of(const VibrationRecord& record, const PassBand& band) {
-  Motion motion{.terms = MatrixXd(record.n(), 3), .base = filtered(record.base, record.rate, band)};
+FilteredMotion motion_of(const VibrationRecord& record, const PassBand& band) {
+  FilteredMotion motion{.terms = MatrixXd(record.n(), 3), .base = filtered(record.base, record.rate, band)};
   for (int order = 0; order < 3; ++order)
     motion.terms.col(order) = integrated(record.relative, record.rate, order, band);
   return motion;
@@ -62,8 +62,8 @@ Motion motion_of(const VibrationRecord& record, const PassBand& band) {
 /// both have the same unit. In the upper half of the band: low frequencies of z'' that are integrated twice are mostly
 /// noise.
 double best_scale(const VibrationRecord& record) {
-  const Motion motion = motion_of(record, {.low = std::sqrt(record.band_low * record.band_high),
-                                           .high = std::min(1.2 * record.band_high, 0.38 * record.rate)});
+  const FilteredMotion motion = motion_of(record, {.low = std::sqrt(record.band_low * record.band_high),
+                                                   .high = std::min(1.2 * record.band_high, 0.38 * record.rate)});
   return scaled_least_squares(motion.terms, -motion.base)[0];
 }
 

@@ -41,7 +41,7 @@ std::vector<CsvTable> read_files(const ConfigTable& table, const std::filesystem
   return files;
 }
 
-std::vector<FrameRows> frames_in(const ConfigTable& table, const std::vector<CsvTable>& files) {
+std::vector<FrameRows> frames_of(const ConfigTable& table, const std::vector<CsvTable>& files) {
   std::vector<FrameRows> frames;
   const std::vector<ConfigValue> names = table.at("files").list();
   const auto column = table.find("frame");
@@ -263,7 +263,7 @@ RecordedField read_recorded_field(const FieldSettings& settings, const std::vect
   RecordedField field = settings.field;
   const ConfigTable& table = settings.where;
   const std::vector<CsvTable> files = read_files(table, case_directory);
-  const std::vector<FrameRows> frames = frames_in(table, files);
+  const std::vector<FrameRows> frames = frames_of(table, files);
   const std::vector<double> at = FrameTimes(settings, specimens[field.specimen], case_directory).of(frames);
   const std::map<const CsvTable*, FieldColumns> columns = columns_of(table, files);
   field.n_components = columns.begin()->second.w.empty() ? 2 : 3;

@@ -97,13 +97,13 @@ constexpr const char* links_folder = "runs_by_value";
 
 /// Links to the runs' folders, by value; where the disk has no links there are none.
 void link_by_value(const SweepSettings& settings, const std::vector<DoneRun>& runs, const fs::path& results) {
-  std::error_code none;
-  fs::create_directory(results / links_folder, none);
+  std::error_code ignored;
+  fs::create_directory(results / links_folder, ignored);
   for (std::size_t i = 0; i < runs.size(); ++i) {
     if (runs[i].folder.empty()) continue;
     const fs::path link = results / links_folder / name_by_value(settings, i);
-    if (fs::is_symlink(link, none)) fs::remove(link, none);
-    fs::create_directory_symlink(fs::path("..") / fs::relative(runs[i].folder, results), link, none);
+    if (fs::is_symlink(link, ignored)) fs::remove(link, ignored);
+    fs::create_directory_symlink(fs::path("..") / fs::relative(runs[i].folder, results), link, ignored);
   }
 }
 
