@@ -175,7 +175,8 @@ void Parser::add_other_options() {
   of_specimen("--set", line.set, "a dimension or property of the specimen; may be repeated")->type_name("NAME=VALUE");
   command("list").add_flag("--laws", line.laws, "list laws, boundary conditions and generators instead");
   CLI::App& help = command("help");
-  help.add_option("COMMAND", line.case_directory, "the command, or a key, as toughness or materials.poisson_ratio")
+  help.add_option("COMMAND", line.help_words,
+                  "the command, a key as materials.poisson_ratio, or words that keys tell of")
       ->type_name("");
   help.add_flag("--man", line.man, "print the manual page pfdm.1");
   help.add_flag("--schema", line.schema, "print the JSON schema of case.toml, for editors");
@@ -274,9 +275,9 @@ std::optional<CommandLine> read_command_line(const std::vector<std::string>& arg
   if (line.sensitivity.method == "direct" && app.get_subcommands().front()->count("--step") > 0)
     throw InputError("sensitivity: --step is that of differences; --method direct takes none");
   if (line.command != "help" || line.man || line.schema || !line.reference.empty()) return line;
-  if (line.case_directory.empty()) return read_command_line({"--help"}, out);
-  if (is_command(line.case_directory, app)) return read_command_line({line.case_directory, "--help"}, out);
-  line.key = line.case_directory;
+  if (line.help_words.empty()) return read_command_line({"--help"}, out);
+  line.key = fmt::format("{}", fmt::join(line.help_words, " "));
+  if (is_command(line.key, app)) return read_command_line({line.key, "--help"}, out);
   return line;
 }
 

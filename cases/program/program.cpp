@@ -2,6 +2,7 @@
 
 #include "cases/program/commands.h"
 #include "cases/program/completion.h"
+#include "cases/program/help_words.h"
 #include "cases/program/input/case_files/case_override.h"
 #include "cases/program/input/case_files/kept_case.h"
 #include "cases/program/kinds.h"
@@ -225,22 +226,6 @@ void write_schema(const CommandLine& line, std::ostream& out) {
     write_file(std::filesystem::path(line.reference) / name, text);
 }
 
-void help_on(const std::string& key, std::ostream& out) {
-  const std::vector<KindKeys> kinds = keys_of_kinds();
-  if (const auto text = help_on_word(key, kinds)) {
-    out << *text;
-    return;
-  }
-  const std::vector<std::string> near = keys_like(key, kinds);
-  const bool knows_all = kinds.size() == std::size(all_kind_names);
-  const std::string command = unknown_command(key);
-  throw InputError(fmt::format("{} is it a key of case.toml{}, or a word that one tells of{}",
-                               command + (command.ends_with('?') ? " Nor" : "; nor"),
-                               near.empty() ? "" : fmt::format(" (keys like it: {})", fmt::join(near, ", ")),
-                               knows_all ? "; all keys: cases/reference; all else: the search of pfdm docs"
-                                         : "; this program knows those of fracture cases alone"));
-}
-
 void do_command(const CommandLine& line, std::ostream& out, std::ostream& err, bool terminal) {
   if (line.command == "test")
     throw InputError("the tests are built and run by the launcher at the root of the checkout: ./pfdm test");
@@ -249,7 +234,8 @@ void do_command(const CommandLine& line, std::ostream& out, std::ostream& err, b
     out << manual_page(command_words(), PFDM_VERSION);
     return;
   }
-  if (line.command == "help") return line.key.empty() ? write_schema(line, out) : help_on(line.key, out);
+  if (line.command == "help")
+    return line.key.empty() ? write_schema(line, out) : help_on(line.key, keys_of_kinds(), out);
   if (line.command == "completion") {
     out << completion_script(line.shell, command_words(), names_of_keys(keys_of_kinds()));
     return;

@@ -71,7 +71,11 @@ expect_no_build 0 "the documentation as a site" help docs
 expect_no_build 2 "takes --output DIR alone" docs --outputs site
 expect_no_build 0 "number, above -1 and at most 0.4999" help materials.poisson_ratio
 expect_no_build 0 "(plate)" help cooling.emissivity
-expect_no_build 2 "no command and no key of case.toml has this name" help toughnes
+expect_no_build 2 "no command and no key of case.toml has this name" help xyzzy
+expect_no_build 0 "Fracture toughness, critical energy release rate Gc" help toughnes
+expect_no_build 0 "materials.NAME.law" help neo-Hookean
+expect_no_build 0 "materials.NAME.expansion" help thermal expansion
+expect_no_build 0 "others that tell of it: " help temperature
 expect_no_build 0 'no key has the name "gc"; these tell of it' help gc
 expect_no_build 0 "in         materials.NAME.poisson_ratio" help poisson
 expect_no_build 0 "bar                         fracture       A bar" list

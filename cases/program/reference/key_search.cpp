@@ -20,7 +20,7 @@ struct FoundKey {
   std::size_t n_places = 1;
 };
 
-constexpr std::size_t most_lines = 12, most_places = 6;
+constexpr std::size_t most_lines = 12;
 
 std::vector<std::string> words_in(std::string_view text) {
   std::vector<std::string> words(1);
@@ -64,21 +64,53 @@ void add(const PlacedKey& placed, std::vector<FoundKey>& found) {
     found.push_back({placed.key, placed.path, placed.kind});
 }
 
-/// Those with the words in their name first. Keys whose name is `asked` are left out.
+void append(std::vector<std::string>& words, const std::vector<std::string>& others) {
+  words.insert(words.end(), others.begin(), others.end());
+}
+
+void add_words_of_values(const KeyType& type, std::vector<std::string>& words) {
+  for (const std::string& value : type.words) append(words, words_in(value));
+  for (const KeyType& part : type.parts) add_words_of_values(part, words);
+}
+
+/// Those with the words in their name first, then in name and sentence, then in their values and in those with which
+/// they are allowed. Keys whose name is `asked` are left out.
 std::vector<FoundKey> keys_about(const std::string& asked, const std::vector<KindKeys>& kinds, Match matches) {
   const std::vector<std::string> words = words_in(asked);
-  std::vector<FoundKey> by_name, by_sentence;
+  std::vector<FoundKey> by_name, by_sentence, by_value;
   if (words.empty()) return {};
   for_each_key(kinds, [&](const PlacedKey& placed) {
     if (placed.key->name == asked) return;
-    const std::vector<std::string> name = words_in(placed.key->name);
-    if (has_all(name, words, matches)) return add(placed, by_name);
-    std::vector<std::string> all = words_in(placed.key->sentence);
-    all.insert(all.end(), name.begin(), name.end());
-    if (has_all(all, words, matches)) add(placed, by_sentence);
+    std::vector<std::string> all = words_in(placed.key->name);
+    if (has_all(all, words, matches)) return add(placed, by_name);
+    append(all, words_in(placed.key->sentence));
+    if (has_all(all, words, matches)) return add(placed, by_sentence);
+    add_words_of_values(placed.key->type, all);
+    if (has_all(all, words, matches)) return add(placed, by_value);
+    append(all, words_in(placed.key->only));
+    if (has_all(all, words, matches)) add(placed, by_value);
   });
   by_name.insert(by_name.end(), by_sentence.begin(), by_sentence.end());
+  by_name.insert(by_name.end(), by_value.begin(), by_value.end());
   return by_name;
+}
+
+/// Those whose name and sentence have most of several words, of three letters or more.
+std::vector<FoundKey> keys_about_most(const std::string& asked, const std::vector<KindKeys>& kinds) {
+  std::vector<std::string> words = words_in(asked);
+  std::erase_if(words, [](const std::string& word) { return word.size() < 3; });
+  std::vector<FoundKey> found;
+  std::ptrdiff_t most = 1;
+  for_each_key(kinds, [&](const PlacedKey& placed) {
+    std::vector<std::string> all = words_in(placed.key->name);
+    append(all, words_in(placed.key->sentence));
+    const auto n = std::ranges::count_if(words, [&](const std::string& word) { return has_all(all, {word}, is_same); });
+    if (n < most) return;
+    if (n > most) found.clear();
+    most = n;
+    add(placed, found);
+  });
+  return found;
 }
 
 std::string text_of(const std::vector<FoundKey>& found) {
@@ -95,8 +127,8 @@ std::string text_of(const std::vector<FoundKey>& found) {
 
 std::string places_of(const std::vector<FoundKey>& found) {
   std::vector<std::string> places;
-  for (std::size_t i = 0; i < std::min(found.size(), most_places); ++i) places.push_back(found[i].place);
-  return fmt::format("{}{}", fmt::join(places, ", "), found.size() > most_places ? " ..." : "");
+  for (std::size_t i = 0; i < std::min(found.size(), most_lines); ++i) places.push_back(found[i].place);
+  return fmt::format("{}{}", fmt::join(places, ", "), found.size() > most_lines ? " ..." : "");
 }
 
 }  // namespace
@@ -106,8 +138,14 @@ std::optional<std::string> help_on_word(const std::string& asked, const std::vec
   if (const auto text = help_on_key(asked, kinds))
     return about.empty() ? *text : fmt::format("{}\nothers that tell of it: {}\n", *text, places_of(about));
   if (about.empty()) about = keys_about(asked, kinds, begins_alike);
+  if (about.empty()) about = keys_about_most(asked, kinds);
   if (about.empty()) return std::nullopt;
   return fmt::format("no key has the name \"{}\"; these tell of it:\n\n{}", asked, text_of(about));
+}
+
+bool tells_of(std::string_view text, std::string_view asked) {
+  const std::vector<std::string> words = words_in(asked);
+  return !words.empty() && has_all(words_in(text), words, is_same);
 }
 
 std::vector<std::string> names_of_keys(const std::vector<KindKeys>& kinds) {

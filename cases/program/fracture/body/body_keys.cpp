@@ -213,7 +213,8 @@ const KeyTable& load_keys() {
           {"body_force", list(varying(quantity(force_per_volume)), 3, 3), "none",
            "Force per reference volume along x, y, z in all regions, such as a centrifugal force."},
           {"temperature_change", varying(quantity(dimension::temperature_difference)), "none",
-           "Change of temperature, a difference in K, by the materials' expansion and temperature_shift."},
+           "Change of temperature (heating, cooling), a difference in K, by the materials' expansion and "
+           "temperature_shift."},
           {"start_temperature", quantity(dimension::temperature, range::positive), "none",
            "Temperature of the body at the start, for materials with a temperature_shift."},
           {"applied", choice("way in which loads are applied", {"with_load", "from_start"}), "\"with_load\"",

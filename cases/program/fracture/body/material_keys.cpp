@@ -174,7 +174,8 @@ const KeyTable& material_keys() {
       .keys = joined(
           {{regions_row(),
             {"law", one_of("law of a material", material_laws()), "linear elastic; endochronic if there is a kernel",
-             "Law of the undamaged material: linear elastic, plastic, or hyperelastic at finite strain."}},
+             "Law of the undamaged material: linear elastic, plastic, viscoelastic, or hyperelastic (rubber) at finite "
+             "strain."}},
            rows_in_common(),
            kernel_keys("none"),
            endochronic_factor_keys("endochronic"),

@@ -107,14 +107,15 @@ const KeyTable& loading_keys() {
       .keys = {
           stored<&L::end>("end", number(range::positive),
                           "Load parameter t at the end; plain quantities are reached at t = 1."),
-          stored<&L::duration>("duration", quantity(dimension::time, range::positive),
-                               "Time in which the load parameter grows by 1, for viscosity, heat, and materials and "
-                               "interfaces with rate.",
-                               "none"),
+          stored<&L::duration>(
+              "duration", quantity(dimension::time, range::positive),
+              "Time in which the load parameter grows by 1: the rate (speed) of loading, for viscosity, heat, "
+              "materials and interfaces with rate.",
+              "none"),
           stored<&L::initial_increment>("initial_increment", number(range::positive),
                                         "First increment of the load parameter."),
           stored<&L::maximum_increment>("maximum_increment", number(range::positive),
-                                        "Largest increment of the load parameter.",
+                                        "Largest increment (step) of the load parameter.",
                                         "the larger of 0.05 and the initial one"),
           stored<&L::minimum_increment>("minimum_increment", number(range::positive),
                                         "Smallest increment; the run ends where it does not converge."),
