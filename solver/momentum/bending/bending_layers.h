@@ -16,8 +16,8 @@ namespace pfdm {
 
 /// Layers across a body at a cell, and the cell's longest edge along them.
 struct BendingLayers {
-  /// Length over thickness from which on a body is taken to bend.
-  static constexpr double least_slenderness = 3.0;
+  /// Length over thickness from which on a body is taken to bend: three, less what rounding of coordinates may take.
+  static constexpr double least_slenderness = 3.0 * (1.0 - 1e-6);
 
   double n = 0.0;          ///< layers, twice as many where the last one lies on a plane of symmetry
   double thickness = 0.0;  ///< of all of them [m]
