@@ -5,6 +5,7 @@
 #include "cases/program/studies/fit/interval_trial.h"
 #include "cases/program/studies/runs/finer_case.h"
 #include "physics/quantity_text.h"
+#include "postproc/fits/uneven_scatter.h"
 #include "solver/calibration/calibration_statistics.h"
 #include "solver/calibration/profile_likelihood.h"
 
@@ -22,6 +23,21 @@ std::optional<double> reach_of_interval(const FitFindings& found, std::size_t k)
   return error.widening * student_95(std::min(error.freedom, 1e9));
 }
 
+/// One more reason where noise that is not stated grows or falls with the force.
+void doubt_scatter(const MeasuredPoints& points, const FitResult& result, FitFindings& found) {
+  constexpr double false_alarm = 0.002, noticeable_widening = 1.25;
+  constexpr double least_noise = 1e-3;  // of the rms force: what load steps leave scatters as it likes
+  if (points.noise_is_known || found.verdict != Verdict::sound || result.rms < least_noise) return;
+  std::vector<double> measured;
+  for (const MeasuredPoints::Point& point : points.points) measured.push_back(point.y);
+  const UnevenScatter scatter = uneven_scatter(result, measured);
+  if (!(scatter.probability < false_alarm && scatter.widening > noticeable_widening)) return;
+  question(found, fmt::format("the residuals scatter by {:.2g} % of the rms force where forces are small and by {:.2g} "
+                              "% where they are large, and intervals would be {:.1f} times too narrow; state the "
+                              "deviation of each row",
+                              100.0 * scatter.small, 100.0 * scatter.large, scatter.widening));
+}
+
 }  // namespace
 
 void CurveFit::doubt(const DoneStage& done, bool model_error, FitFindings& found) {
@@ -33,6 +49,7 @@ void CurveFit::doubt(const DoneStage& done, bool model_error, FitFindings& found
     for (const std::string& origin : origins) question(found, origin);
   doubt_events(done, fitted, found);
   doubt_fields(done, found);
+  doubt_scatter(done.points, done.result, found);
   suspect_preload(found);
 }
 

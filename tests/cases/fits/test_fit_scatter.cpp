@@ -1,0 +1,65 @@
+// Intervals of pfdm fit where noise grows with the force. SYNTHETIC data: a straight line with noise.
+
+#include "tests/cases/temporary_case.h"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <random>
+#include <string>
+
+namespace pfdm::this_file {
+namespace {
+
+using nlohmann::json;
+using testing::HasSubstr;
+
+/// The bar is held on all sides: it is stiffer by 1/0.9.
+constexpr double stiffness_33_GPa = 33e9 / 0.9 * 1e-6 / 20e-3;  // [N/m]
+
+json fitted(const std::string& record, const std::string& deviation) {
+  const TemporaryCase directory(bar_case() + R"(
+[experiment]
+stiffness_between = ["1 um", "5 um"]
+[[experiment.specimens]]
+name = "one"
+csv = "one.csv"
+displacement = { column = "u_m" }
+force = { column = "F_N" }
+)" + deviation + R"(
+[fit]
+[[fit.parameters]]
+key = "materials.concrete.young_modulus"
+bounds = ["10 GPa", "90 GPa"]
+[[fit.stages]]
+name = "elastic"
+between = ["0 um", "6 um"]
+)");
+  directory.write("one.csv", record);
+  const Outcome outcome = run({"fit", directory.path().string(), "--quiet"});
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  return json::parse(content_of(directory.results() / "fit.json"));
+}
+
+// A slope rests on the rows with the largest forces: noise of 8 % of each force leaves intervals 1.34 times too narrow.
+TEST(FitScatter, NoiseThatGrowsWithTheForceHasToBeStated) {
+  std::mt19937 engine(3);
+  std::normal_distribution<double> normal(0.0, 0.08);
+  std::string record = "# SYNTHETIC\nu_m,F_N,s\n";
+  for (int i = 1; i <= 200; ++i) {
+    const double force = stiffness_33_GPa * 3e-8 * i;
+    record += fmt::format("{},{},{}\n", 3e-8 * i, force * (1.0 + normal(engine)), 0.08 * force);
+  }
+  const json unstated = fitted(record, ""), stated = fitted(record, "deviation = { column = \"s\" }\n");
+  EXPECT_EQ(unstated["verdict"], "questionable") << unstated["reasons"];
+  EXPECT_TRUE(unstated["parameters"][0]["lower"].is_null());
+  EXPECT_THAT(unstated["reasons"].dump(), HasSubstr("intervals would be 1."));
+  EXPECT_THAT(unstated["reasons"].dump(), HasSubstr("state the deviation of each row"));
+  EXPECT_EQ(stated["verdict"], "sound") << stated["reasons"];
+  EXPECT_FALSE(stated["parameters"][0]["lower"].is_null());
+}
+
+}  // namespace
+}  // namespace pfdm::this_file

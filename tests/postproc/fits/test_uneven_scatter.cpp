@@ -1,0 +1,86 @@
+// Residuals whose noise is even, or grows with the force, by repetition.
+
+#include "postproc/fits/uneven_scatter.h"
+#include "tests/solver/noisy_bar.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace pfdm::this_file {
+namespace {
+
+constexpr std::size_t n = 100;
+
+/// Forces of the bar over the strength.
+std::vector<double> forces() {
+  std::vector<double> values;
+  for (std::size_t i = 0; i < n; ++i) {
+    const double u = noisy_bar::range * static_cast<double>(i) / static_cast<double>(n - 1);
+    values.push_back(noisy_bar::force(u, noisy_bar::truth[0], noisy_bar::truth[1], noisy_bar::truth[2]) /
+                     (noisy_bar::area * noisy_bar::truth[1]));
+  }
+  return values;
+}
+
+struct Repeated {
+  int told = 0, held = 0;  // with a probability below 0.002; intervals of the strength that hold the truth
+  double widening = 0.0;   // mean
+};
+
+/// 200 fits to the bar whose noise is `even` plus `by_force` times the force, in multiples of 2 % of the largest.
+Repeated repeated(double even, double by_force) {
+  constexpr int times = 200;
+  Repeated all;
+  std::mt19937_64 engine(5);
+  const std::vector<double> size = forces();
+  for (int k = 0; k < times; ++k) {
+    std::vector<double> noise = noisy_bar::noise("white", n, engine);
+    for (std::size_t i = 0; i < n; ++i) noise[i] *= even + by_force * size[i];
+    const FitResult result = fit(noisy_bar::problem(noise), {.step = 1e-4});
+    const UnevenScatter found = uneven_scatter(result, size);
+    all.told += found.probability < 0.002 ? 1 : 0;
+    all.widening += found.widening / times;
+    const FitEstimate& strength = result.estimates[1];
+    all.held += strength.lower_95 < noisy_bar::truth[1] && noisy_bar::truth[1] < strength.upper_95 ? 1 : 0;
+  }
+  return all;
+}
+
+TEST(UnevenScatter, OfEvenNoiseIsHardlyEverTold) {
+  const Repeated found = repeated(1.0, 0.0);
+  EXPECT_LE(found.told, 3) << "of 200";
+  EXPECT_LT(found.widening, 1.2);
+  EXPECT_GE(found.held, 180);
+}
+
+// The strength rests on the rows with the largest forces.
+TEST(UnevenScatter, OfNoiseThatGrowsWithTheForceIsToldAndMakesIntervalsTooNarrow) {
+  const Repeated found = repeated(0.05, 1.0);
+  EXPECT_GE(found.told, 180) << "of 200";
+  EXPECT_GT(found.widening, 1.25);
+  EXPECT_LT(found.held, 180);
+}
+
+TEST(UnevenScatter, HasTheRmsOfSmallAndLargeForces) {
+  std::mt19937_64 engine(6);
+  std::vector<double> noise = noisy_bar::noise("white", n, engine);
+  const std::vector<double> size = forces();
+  std::vector<double> sorted = size;
+  std::ranges::sort(sorted);
+  for (std::size_t i = 0; i < n; ++i) noise[i] *= size[i] < sorted[n / 2] ? 1.0 : 3.0;
+  const UnevenScatter found = uneven_scatter(fit(noisy_bar::problem(noise), {.step = 1e-4}), size);
+  EXPECT_NEAR(found.small, 0.02, 0.006);
+  EXPECT_NEAR(found.large, 0.06, 0.018);
+  EXPECT_LT(found.probability, 0.01);
+}
+
+TEST(UnevenScatter, OfFewValuesIsNotKnown) {
+  std::mt19937_64 engine(7);
+  const FitResult result = fit(noisy_bar::problem(noisy_bar::noise("white", 12, engine)), {.step = 1e-4});
+  EXPECT_EQ(uneven_scatter(result, std::vector<double>(12, 1.0)).probability, 1.0);
+}
+
+}  // namespace
+}  // namespace pfdm::this_file
