@@ -30,13 +30,6 @@ struct ChainProgram {
   ChainCase chain;
 };
 
-/// The record of a step that need not be done again; null if it must.
-const DoneStep* done_before(const ChainRecord& record, const ReadyStep& ready, const std::string& version) {
-  const DoneStep* const done = record.version == version ? record.find(ready.step.name) : nullptr;
-  if (done == nullptr || done->does != ready.step.job->name || done->key != ready.key) return nullptr;
-  return fs::is_regular_file(ready.outcome()) && content_hash(ready.outcome()) == done->outcome ? done : nullptr;
-}
-
 /// The step's case, if it is a file of its own, and its data.
 std::vector<fs::path> files_of(const ReadyStep& ready) {
   std::vector<fs::path> named = data_files_named(ready.file);
@@ -60,6 +53,44 @@ bool takes_from(const ReadyStep& ready, const ChainStep& earlier) {
   std::vector<fs::path> sources = files_of(ready);
   for (const TakenNumber& number : numbers_taken(ready.file)) sources.push_back(ready.file.directory / number.from);
   return std::ranges::any_of(sources, [&](const fs::path& file) { return lies_in(file, results_of(earlier)); });
+}
+
+/// Throws InputError for a step that takes files or numbers from one after it: it would be done with what that had
+/// before, and the chain be complete all the same.
+void require_order(const ChainProgram& program, const ReadyStep& ready) {
+  std::vector<fs::path> known{ready.results};  // of the step and those before it
+  bool is_later = false;
+  for (const ChainStep& other : program.chain.steps) {
+    if (&other == &ready.step)
+      is_later = true;
+    else if (!is_later)
+      known.push_back(results_of(other));
+    else if (std::ranges::find(known, results_of(other)) == known.end() && takes_from(ready, other))
+      throw ready.step.place.error(fmt::format(
+          "\"{}\" takes from results of \"{}\", which comes after it; put that first", ready.step.name, other.name));
+  }
+}
+
+/// Whether a file of the step's results is gone that a later step took, as the record has it.
+bool lacks_what_was_taken(const ChainProgram& program, const ReadyStep& ready, const ChainRecord& record) {
+  for (const ChainStep& other : program.chain.steps) {
+    const DoneStep* const done = record.find(other.name);
+    if (&other == &ready.step || done == nullptr) continue;
+    std::vector<fs::path> files(done->files.begin(), done->files.end());
+    for (const TakenNumber& number : done->taken) files.push_back(results_of(other).parent_path() / number.from);
+    if (std::ranges::any_of(files, [&](const fs::path& f) { return lies_in(f, ready.results) && !fs::exists(f); }))
+      return true;
+  }
+  return false;
+}
+
+/// The record of a step that need not be done again; null if it must.
+const DoneStep* done_before(const ChainProgram& program, const ChainRecord& record, const ReadyStep& ready,
+                            const std::string& version) {
+  const DoneStep* const done = record.version == version ? record.find(ready.step.name) : nullptr;
+  if (done == nullptr || done->does != ready.step.job->name || done->key != ready.key) return nullptr;
+  if (!fs::is_regular_file(ready.outcome()) || content_hash(ready.outcome()) != done->outcome) return nullptr;
+  return lacks_what_was_taken(program, ready, record) ? nullptr : done;
 }
 
 /// "sound" of a fit; empty for other jobs. Throws NoConvergence for one on which nothing may be built: that has failed,
@@ -152,8 +183,9 @@ void check(const ChainProgram& program, Session& session) {
       continue;
     }
     const ReadyStep& ready = *read;
+    require_order(program, ready);
     warn_of_absent_figures(ready, log);
-    const bool done = done_before(record, ready, session.version) != nullptr;
+    const bool done = done_before(program, record, ready, session.version) != nullptr;
     if (!done && waited_for == nullptr) waited_for = &step;
     const auto source = std::ranges::find_if(open, [&](const ChainStep* s) { return takes_from(ready, *s); });
     const std::string state = !done ? "to be done"
@@ -189,9 +221,10 @@ void run_case(const ChainProgram& program, Session& session) {
   bool restart = session.restart;
   for (const ChainStep& step : program.chain.steps) {
     const ReadyStep ready = get_ready(step, session);
+    require_order(program, ready);
     const std::string place =
         fmt::format("step {} of {}: {}", record.steps.size() + 1, program.chain.steps.size(), step.name);
-    if (const DoneStep* done = done_before(earlier, ready, session.version)) {
+    if (const DoneStep* done = done_before(program, earlier, ready, session.version)) {
       log.say(fmt::format("{}: done before", place));
       record.steps.push_back(*done);
       continue;
