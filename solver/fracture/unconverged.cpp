@@ -100,7 +100,7 @@ std::string long_step_words(const IterationReport& report, double seconds, const
 std::string torn_words(double held, double load, const LoadingSettings& loading, bool is_finite_strain) {
   return fmt::format(
       "the body breaks apart between the loads {:.6g} and {:.6g}: beyond, only the residual stiffness of broken "
-      "cells carries its tractions. {}; a smaller loading.maximum_increment locates the load more exactly",
+      "cells carries its loads. {}; a smaller loading.maximum_increment locates the load more exactly",
       held, load,
       loading.controls_dissipation() ? "No intact ligament carries load any more"
       : is_finite_strain             ? "Prescribe displacements instead"
