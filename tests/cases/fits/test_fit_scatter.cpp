@@ -1,4 +1,4 @@
-// Intervals of pfdm fit where noise grows with the force. SYNTHETIC data: a straight line with noise.
+// Intervals of pfdm fit where noise grows with the force, or a row was dropped. SYNTHETIC data: a straight line with noise.
 
 #include "tests/cases/temporary_case.h"
 
@@ -59,6 +59,23 @@ TEST(FitScatter, NoiseThatGrowsWithTheForceHasToBeStated) {
   EXPECT_THAT(unstated["reasons"].dump(), HasSubstr("state the deviation of each row"));
   EXPECT_EQ(stated["verdict"], "sound") << stated["reasons"];
   EXPECT_FALSE(stated["parameters"][0]["lower"].is_null());
+}
+
+// A row that the machine dropped moves the slope by several standard errors.
+TEST(FitScatter, ADroppedRowIsNamed) {
+  std::mt19937 engine(4);
+  std::normal_distribution<double> normal(0.0, 0.01 * stiffness_33_GPa * 6e-6);
+  const auto record = [&](int dropped) {
+    std::string rows = "# SYNTHETIC\nu_m,F_N\n";
+    for (int i = 1; i <= 200; ++i)
+      rows += fmt::format("{},{}\n", 3e-8 * i, i == dropped ? 0.0 : stiffness_33_GPa * 3e-8 * i + normal(engine));
+    return rows;
+  };
+  const json whole = fitted(record(0), ""), lacking = fitted(record(180), "");
+  EXPECT_EQ(whole["verdict"], "sound") << whole["reasons"];
+  EXPECT_EQ(lacking["verdict"], "questionable") << lacking["reasons"];
+  EXPECT_THAT(lacking["reasons"].dump(), HasSubstr("the row of one with 0 N at 5.4 um lies "));
+  EXPECT_THAT(lacking["reasons"].dump(), HasSubstr("leave it out if it is an error of the record"));
 }
 
 }  // namespace

@@ -13,6 +13,20 @@ bool is_truth(const std::string& key, const CaseFile& file) {
   return std::holds_alternative<bool>(value_at(root, key).value);
 }
 
+bool is_no_number(const std::string& key, const CaseFile& file) {
+  const TomlValue root = parse_toml(file.text, "case.toml");
+  const TomlValue& value = value_at(root, key);
+  if (std::holds_alternative<bool>(value.value)) return true;
+  const auto* text = std::get_if<std::string>(&value.value);
+  if (text == nullptr) return false;
+  try {
+    dimension_of(*text);
+    return false;
+  } catch (const InputError&) {
+    return true;
+  }
+}
+
 std::vector<ConfigValue> keys_of(const ConfigValue& key) {
   std::vector<ConfigValue> keys = key.is_list() ? key.list() : std::vector{key};
   if (keys.empty()) throw key.error("expected a key of the case, as in \"materials.glass.young_modulus\"");
@@ -77,31 +91,22 @@ CaseParameter read_case_parameter(const ConfigValue& key, const CaseFile& file) 
   return result;
 }
 
-bool holds_word(const std::string& key, const CaseFile& file) {
-  const TomlValue root = parse_toml(file.text, "case.toml");
-  const TomlValue& value = value_at(root, key);
-  if (std::holds_alternative<bool>(value.value)) return true;
-  const auto* text = std::get_if<std::string>(&value.value);
-  if (text == nullptr) return false;
-  try {
-    dimension_of(*text);
-    return false;
-  } catch (const InputError&) {
-    return true;
-  }
+bool holds_word(const ConfigValue& key, const CaseFile& file) {
+  const ConfigValue first = keys_of(key).front();
+  return first.in_context([&] { return is_no_number(first.string(), file); });
 }
 
-CaseParameter read_word_parameter(const ConfigValue& key, std::span<const ConfigValue> values, const CaseFile& file) {
+CaseParameter read_word_parameter(const ConfigValue& key, std::span<const ConfigValue> words, const CaseFile& file) {
   CaseParameter result{.name = {}, .keys = {}, .ratios = {}, .dimension = dimension::number, .unit = {}};
   for (const ConfigValue& one : keys_of(key)) {
-    if (!one.in_context([&] { return holds_word(one.string(), file); }))
+    if (!one.in_context([&] { return is_no_number(one.string(), file); }))
       throw one.error(fmt::format("\"{}\" holds a number, the first key does not", one.string()));
     result.keys.push_back(one.string());
   }
   result.name = result.keys.front();
   const bool truth = is_truth(result.name, file);
-  for (const ConfigValue& value : values)
-    result.words.push_back(truth ? fmt::format("{}", value.boolean()) : value.string());
+  for (const ConfigValue& word : words)
+    result.words.push_back(truth ? fmt::format("{}", word.boolean()) : word.string());
   return result;
 }
 

@@ -5,6 +5,7 @@
 #include "cases/program/studies/fit/interval_trial.h"
 #include "cases/program/studies/runs/finer_case.h"
 #include "physics/quantity_text.h"
+#include "postproc/fits/stray_row.h"
 #include "postproc/fits/uneven_scatter.h"
 #include "solver/calibration/calibration_statistics.h"
 #include "solver/calibration/profile_likelihood.h"
@@ -16,6 +17,8 @@
 namespace pfdm {
 namespace {
 
+constexpr double least_noise = 1e-3;  // of the rms force: what load steps leave scatters as it likes
+
 /// Deviations at the ends of an interval by profile likelihood; nothing where the residuals are independent.
 std::optional<double> reach_of_interval(const FitFindings& found, std::size_t k) {
   if (found.correlated.empty()) return std::nullopt;
@@ -26,7 +29,6 @@ std::optional<double> reach_of_interval(const FitFindings& found, std::size_t k)
 /// One more reason where noise that is not stated grows or falls with the force.
 void doubt_scatter(const MeasuredPoints& points, const FitResult& result, FitFindings& found) {
   constexpr double false_alarm = 0.002, noticeable_widening = 1.25;
-  constexpr double least_noise = 1e-3;  // of the rms force: what load steps leave scatters as it likes
   if (points.noise_is_known || found.verdict != Verdict::sound || result.rms < least_noise) return;
   std::vector<double> measured;
   for (const MeasuredPoints::Point& point : points.points) measured.push_back(point.y);
@@ -36,6 +38,24 @@ void doubt_scatter(const MeasuredPoints& points, const FitResult& result, FitFin
                               "% where they are large, and intervals would be {:.1f} times too narrow; state the "
                               "deviation of each row",
                               100.0 * scatter.small, 100.0 * scatter.large, scatter.widening));
+}
+
+/// One more reason where a single row moves an estimate, and noise would not have left it where it is.
+void doubt_stray_row(const MeasuredPoints& points, const std::vector<MeasuredCurve>& specimens, const FitResult& result,
+                     FitFindings& found) {
+  constexpr double false_alarm = 1e-3, noticeable_shift = 0.3;
+  if (found.verdict == Verdict::failed || (!points.noise_is_known && result.rms < least_noise)) return;
+  std::vector<double> measured;
+  for (const MeasuredPoints::Point& point : points.points) measured.push_back(point.y / points.scale(point));
+  const auto stray = stray_row(result, measured);
+  if (!stray || !(stray->probability < false_alarm && stray->shift > noticeable_shift)) return;
+  const MeasuredPoints::Point& at = points.points[stray->row];
+  question(found,
+           fmt::format("the row of {} with {} at {} lies {:.2g} standard deviations off the curve and off the rows "
+                       "beside it, and moves an estimate by {:.2g} standard errors; leave it out if it is an "
+                       "error of the record",
+                       specimens[at.specimen].curve.name, quantity_text(at.y, "N", 4), quantity_text(at.x, "m", 4),
+                       stray->distance, stray->shift));
 }
 
 }  // namespace
@@ -49,6 +69,7 @@ void CurveFit::doubt(const DoneStage& done, bool model_error, FitFindings& found
     for (const std::string& origin : origins) question(found, origin);
   doubt_events(done, fitted, found);
   doubt_fields(done, found);
+  doubt_stray_row(done.points, job_.specimens, done.result, found);
   doubt_scatter(done.points, done.result, found);
   suspect_preload(found);
 }

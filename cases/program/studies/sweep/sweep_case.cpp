@@ -34,11 +34,8 @@ Interval read_interval(const ConfigTable& table, const CaseParameter& parameter)
 /// By its key, and by the words of its values where the key holds no number.
 CaseParameter read_parameter(const ConfigTable& table, const CaseFile& file) {
   const ConfigValue key = table.at("key");
-  const std::vector<ConfigValue> keys = key.is_list() ? key.list() : std::vector{key};
-  if (keys.empty() || !keys[0].in_context([&] { return holds_word(keys[0].string(), file); }))
-    return read_case_parameter(key, file);
-  if (!table.has("values"))
-    throw table.error(fmt::format("\"{}\" holds no number: \"values\" has to list what it takes", keys[0].string()));
+  if (!holds_word(key, file)) return read_case_parameter(key, file);
+  if (!table.has("values")) throw key.error("what is there is no number: \"values\" has to list what it takes");
   const std::vector<ConfigValue> values = table.at("values").list();
   if (values.empty()) throw table.at("values").error("at least one value is required");
   return read_word_parameter(key, values, file);
@@ -99,7 +96,7 @@ Points samples(const std::vector<ConfigTable>& tables, const std::vector<CasePar
   for (std::size_t j = 0; j < parameters.size(); ++j) {
     if (!parameters[j].words.empty())
       throw tables[j].error(
-          fmt::format("\"{}\" holds no number: the method has to be \"grid\" or \"list\"", parameters[j].name));
+          fmt::format("what \"{}\" is changed to are no numbers: the method has to be \"grid\" or \"list\"", parameters[j].name));
     const Interval interval = read_interval(tables[j], parameters[j]);
     for (std::vector<double>& point : points) point[j] = interval.at(point[j]);
   }
