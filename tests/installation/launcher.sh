@@ -71,6 +71,8 @@ expect_no_build 0 "the documentation as a site" help docs
 expect_no_build 2 "takes --output DIR alone" docs --outputs site
 expect_no_build 0 "number, above -1 and at most 0.4999" help materials.poisson_ratio
 expect_no_build 0 "(plate)" help cooling.emissivity
+expect_no_build 0 "in         kind (chain, endochronic" help kind
+expect_no_build 2 "no command and no key of case.toml has this name" help xyzzy.boundary
 expect_no_build 2 "no command and no key of case.toml has this name" help xyzzy
 expect_no_build 0 "Fracture toughness, critical energy release rate Gc" help toughnes
 expect_no_build 0 "materials.NAME.law" help neo-Hookean
