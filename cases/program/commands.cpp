@@ -275,8 +275,8 @@ std::optional<CommandLine> read_command_line(const std::vector<std::string>& arg
   if (line.sensitivity.method == "direct" && app.get_subcommands().front()->count("--step") > 0)
     throw InputError("sensitivity: --step is that of differences; --method direct takes none");
   if (line.command != "help" || line.man || line.schema || !line.reference.empty()) return line;
-  if (line.help_words.empty()) return read_command_line({"--help"}, out);
   line.key = fmt::format("{}", fmt::join(line.help_words, " "));
+  if (line.key.empty()) return read_command_line({"--help"}, out);
   if (is_command(line.key, app)) return read_command_line({line.key, "--help"}, out);
   return line;
 }

@@ -54,6 +54,7 @@ TEST(Commands, NameTheNearestCase) {
 
 TEST(Commands, HelpIsThatOfTheOption) {
   EXPECT_EQ(run({"help"}).out, run({"--help"}).out);
+  EXPECT_EQ(run({"help", ""}).out, run({"--help"}).out);
   for (const CommandWords& command : command_words()) {
     const Outcome help = run({"help", command.name}), option = run({command.name, "--help"});
     EXPECT_EQ(help.status, 0);
