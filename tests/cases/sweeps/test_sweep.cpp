@@ -186,6 +186,32 @@ values = [true]
   EXPECT_NE(content_of(directory.results() / "report/index.html").find("AT2"), std::string::npos);
 }
 
+// The case that runs with "0 mm" holds a number there. Titles that differ by signs alone have links of their own, and a
+// blank one has its row in the report.
+TEST(Sweep, TakesWordsBesideQuantitiesAndOddOnes) {
+  const std::string words = R"(
+[sweep]
+method = "list"
+[[sweep.parameters]]
+key = "boundary[0].displacement[1]"
+values = ["free", "0 mm", "free", "free"]
+[[sweep.parameters]]
+key = "title"
+values = ["a*b", "a/b", "a/b", " "]
+)";
+  const TemporaryCase directory(bar_case() + words);
+  const Outcome outcome = run({"sweep", directory.path().string()});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const CsvTable table = read_csv(directory.results() / "sweep.csv");
+  EXPECT_EQ(table.column("converged"), std::vector<double>(4, 1.0)) << content_of(directory.results() / "sweep.csv");
+  EXPECT_EQ(std::ranges::count(table.comments, "boundary[0].displacement[1], 1: 0 mm"), 1);
+  EXPECT_TRUE(fs::exists(directory.results() / "runs_by_value/displacement_1=free,title=a_b"));
+  EXPECT_TRUE(fs::exists(directory.results() / "runs_by_value/displacement_1=0mm,title=a_b"));
+  EXPECT_TRUE(fs::exists(directory.results() / "runs_by_value/run_3"));
+  const Outcome report = run({"report", directory.path().string()});
+  EXPECT_EQ(report.status, 0) << report.err;
+}
+
 class BadSweep : public testing::TestWithParam<BadInput> {};
 
 TEST_P(BadSweep, IsRefusedWithOneMessage) {
@@ -231,6 +257,15 @@ const BadInput bad_sweeps[] = {
      "\"grid\"\n[[sweep.parameters]]",
      "\"grid\"\n[[sweep.parameters]]\nkey = \"fracture.model\"\nvalues = [1, 2]\n[[sweep.parameters]]",
      {"[sweep.parameters] values[0]", "expected a text"}},
+    {"words_of_two_lines",
+     "\"grid\"\n[[sweep.parameters]]",
+     "\"grid\"\n[[sweep.parameters]]\nkey = \"title\"\nvalues = [\"a\\nb\"]\n[[sweep.parameters]]",
+     {"[sweep.parameters] values[0]: expected a text of one line"}},
+    {"word_and_number_as_one",
+     "\"grid\"\n[[sweep.parameters]]",
+     "\"grid\"\n[[sweep.parameters]]\nkey = [\"title\", \"materials.concrete.poisson_ratio\"]\n"
+     "values = [\"a\"]\n[[sweep.parameters]]",
+     {"\"materials.concrete.poisson_ratio\" and \"title\" hold values of different types"}},
     {"element_that_is_not_there",
      "\"materials.concrete.young_modulus\"",
      "\"mesh.x[1].cells\"",

@@ -4,27 +4,27 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cctype>
 
 namespace pfdm {
 namespace {
 
-bool is_truth(const std::string& key, const CaseFile& file) {
-  const TomlValue root = parse_toml(file.text, "case.toml");
-  return std::holds_alternative<bool>(value_at(root, key).value);
-}
-
-bool is_no_number(const std::string& key, const CaseFile& file) {
+enum class Holds { truth, text, other };
+Holds held_at(const std::string& key, const CaseFile& file) {
   const TomlValue root = parse_toml(file.text, "case.toml");
   const TomlValue& value = value_at(root, key);
-  if (std::holds_alternative<bool>(value.value)) return true;
-  const auto* text = std::get_if<std::string>(&value.value);
-  if (text == nullptr) return false;
-  try {
-    dimension_of(*text);
-    return false;
-  } catch (const InputError&) {
-    return true;
-  }
+  if (std::holds_alternative<bool>(value.value)) return Holds::truth;
+  return std::holds_alternative<std::string>(value.value) ? Holds::text : Holds::other;
+}
+
+bool is_truth(const std::string& key, const CaseFile& file) { return held_at(key, file) == Holds::truth; }
+
+/// Whether a value is a text that begins with no number, and so is no quantity, misspelt or not.
+bool is_surely_word(const ConfigValue& value) {
+  if (!value.is_string()) return false;
+  const std::string text = value.string();
+  const std::size_t at = text.find_first_not_of(" \t+-.");
+  return at == std::string::npos || std::isdigit(static_cast<unsigned char>(text[at])) == 0;
 }
 
 std::vector<ConfigValue> keys_of(const ConfigValue& key) {
@@ -91,22 +91,30 @@ CaseParameter read_case_parameter(const ConfigValue& key, const CaseFile& file) 
   return result;
 }
 
-bool holds_word(const ConfigValue& key, const CaseFile& file) {
+bool takes_words(const ConfigValue& key, std::span<const ConfigValue> values, const CaseFile& file) {
   const ConfigValue first = keys_of(key).front();
-  return first.in_context([&] { return is_no_number(first.string(), file); });
+  const Holds held = first.in_context([&] { return held_at(first.string(), file); });
+  if (held != Holds::text || std::ranges::any_of(values, is_surely_word)) return held != Holds::other;
+  try {
+    case_parameter(first.string(), file);
+    return false;
+  } catch (const InputError&) {
+    return true;
+  }
 }
 
-CaseParameter read_word_parameter(const ConfigValue& key, std::span<const ConfigValue> words, const CaseFile& file) {
+CaseParameter read_word_parameter(const ConfigValue& key, std::span<const ConfigValue> values, const CaseFile& file) {
   CaseParameter result{.name = {}, .keys = {}, .ratios = {}, .dimension = dimension::number, .unit = {}};
   for (const ConfigValue& one : keys_of(key)) {
-    if (!one.in_context([&] { return is_no_number(one.string(), file); }))
-      throw one.error(fmt::format("\"{}\" holds a number, the first key does not", one.string()));
+    const Holds held = one.in_context([&] { return held_at(one.string(), file); });
     result.keys.push_back(one.string());
+    if (held != Holds::other && held == held_at(result.keys.front(), file)) continue;
+    throw one.error(fmt::format("\"{}\" and \"{}\" hold values of different types", one.string(), result.keys.front()));
   }
   result.name = result.keys.front();
   const bool truth = is_truth(result.name, file);
-  for (const ConfigValue& word : words)
-    result.words.push_back(truth ? fmt::format("{}", word.boolean()) : word.string());
+  for (const ConfigValue& value : values)
+    result.words.push_back(truth ? fmt::format("{}", value.boolean()) : value.line());
   return result;
 }
 

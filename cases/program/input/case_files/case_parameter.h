@@ -38,13 +38,14 @@ void keep_ratio(CaseParameter& parameter, const CaseParameter& other);
 /// or is neither a quantity nor a number.
 CaseParameter read_case_parameter(const ConfigValue& key, const CaseFile& file);
 
-/// Whether the value of `file` at a key, or at the first of a list, is no number: a word, a formula, the name of a file,
-/// true or false. Throws InputError if it is not there.
-bool holds_word(const ConfigValue& key, const CaseFile& file);
+/// Whether a key, or the first of a list, takes words, not numbers: its value in `file` is a word, a formula, the name
+/// of a file, true or false, or one of `values` is a text that begins with no number, as of "free" and "0 mm". Throws InputError if the key is
+/// not there.
+bool takes_words(const ConfigValue& key, std::span<const ConfigValue> values, const CaseFile& file);
 
-/// Of a key that holds_word(), or a list of them, which all take one value: a value is the place of a word among
-/// `words`, texts or truth values. Throws InputError if a key or a word is of another type.
-CaseParameter read_word_parameter(const ConfigValue& key, std::span<const ConfigValue> words, const CaseFile& file);
+/// Likewise for a key that takes_words(), or a list of them, which all take one value: its values are the numbers of
+/// `values`, texts of one line or truth values. Throws InputError if a key or a value is of another type.
+CaseParameter read_word_parameter(const ConfigValue& key, std::span<const ConfigValue> values, const CaseFile& file);
 
 /// Throws InputError if the last of the parameters, which `key` is, has a key that another one has as well.
 void require_named_once(const ConfigValue& key, std::span<const CaseParameter> parameters);

@@ -42,7 +42,7 @@ std::string ShownColumn::cell(std::size_t i) const {
 }
 
 std::string comment_of_word(const std::string& column, std::size_t k, const std::string& word) {
-  return fmt::format("{}, {}: {}", column, k, word);
+  return fmt::format("{}, {}:{}{}", column, k, trimmed(word).empty() ? "" : " ", trimmed(word));
 }
 
 ShownColumn shown_column(const CsvTable& table, std::size_t j) {
@@ -50,7 +50,7 @@ ShownColumn shown_column(const CsvTable& table, std::size_t j) {
   for (const std::string& comment : table.comments) {
     const std::string mark = comment_of_word(table.names[j], column.names.size(), "");
     if (const std::string_view told = trimmed(comment); told.starts_with(mark))
-      column.names.emplace_back(told.substr(mark.size()));
+      column.names.emplace_back(trimmed(told.substr(mark.size())));
   }
   return column;
 }

@@ -16,6 +16,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numeric>
 
 namespace pfdm {
@@ -77,7 +78,7 @@ std::vector<std::string> scatter(const SweepSettings& settings, const CsvTable& 
   return lines;
 }
 
-/// "sylgard.young_modulus=75MPa,interface.toughness=400J_m2"; the number of the run where that would be too long.
+/// "sylgard.young_modulus=75MPa,interface.toughness=400J_m2"; "run_3" of run 3 where that would be too long.
 std::string name_by_value(const SweepSettings& settings, std::size_t run) {
   constexpr std::size_t longest = 100;
   constexpr std::string_view plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789.=,+-_";
@@ -93,23 +94,38 @@ std::string name_by_value(const SweepSettings& settings, std::size_t run) {
   return name.size() <= longest ? name : fmt::format("run_{}", run + 1);
 }
 
+/// Of every run name_by_value(), or "run_3" of run 3 where that is the name of an earlier run with other values.
+std::vector<std::string> names_by_value(const SweepSettings& settings) {
+  std::map<std::string, std::size_t> first;
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < settings.points.size(); ++i) {
+    std::string name = name_by_value(settings, i);
+    const std::size_t earlier = first.try_emplace(name, i).first->second;
+    const bool same =
+        shown(settings.parameters, settings.points[i]) == shown(settings.parameters, settings.points[earlier]);
+    names.push_back(same ? std::move(name) : fmt::format("run_{}", i + 1));
+  }
+  return names;
+}
+
 constexpr const char* links_folder = "runs_by_value";
 
 /// Links to the runs' folders, by value; where the disk has no links there are none.
 void link_by_value(const SweepSettings& settings, const std::vector<DoneRun>& runs, const fs::path& results) {
   std::error_code ignored;
   fs::create_directory(results / links_folder, ignored);
+  const std::vector<std::string> names = names_by_value(settings);
   for (std::size_t i = 0; i < runs.size(); ++i) {
     if (runs[i].folder.empty()) continue;
-    const fs::path link = results / links_folder / name_by_value(settings, i);
+    const fs::path link = results / links_folder / names[i];
     if (fs::is_symlink(link, ignored)) fs::remove(link, ignored);
     fs::create_directory_symlink(fs::path("..") / fs::relative(runs[i].folder, results), link, ignored);
   }
 }
 
 /// Where the run is, and by which name of its values too.
-std::string place_of(const SweepSettings& settings, const DoneRun& run, std::size_t i, const fs::path& results) {
-  const std::string folder = fs::relative(run.folder, results).string(), name = name_by_value(settings, i);
+std::string place_of(const DoneRun& run, const std::string& name, const fs::path& results) {
+  const std::string folder = fs::relative(run.folder, results).string();
   const bool linked = fs::is_symlink(results / links_folder / name);
   return linked ? fmt::format("{}, {}/{}", folder, links_folder, name) : folder;
 }
@@ -117,12 +133,13 @@ std::string place_of(const SweepSettings& settings, const DoneRun& run, std::siz
 CsvTable table_of(const SweepSettings& settings, const std::vector<DoneRun>& runs, const fs::path& results) {
   CsvTable table;
   const auto summaries = summaries_of(runs);
+  const std::vector<std::string> names = names_by_value(settings);
   std::vector<double> number, converged;
   for (std::size_t i = 0; i < runs.size(); ++i) {
     number.push_back(static_cast<double>(i + 1));
     converged.push_back(runs[i].went_well() ? 1.0 : 0.0);
     table.comments.push_back(runs[i].went_well()
-                                 ? fmt::format("run {}: {}", i + 1, place_of(settings, runs[i], i, results))
+                                 ? fmt::format("run {}: {}", i + 1, place_of(runs[i], names[i], results))
                                  : fmt::format("run {}: {}", i + 1, runs[i].failure));
   }
   table.add("run", number);

@@ -31,12 +31,13 @@ Interval read_interval(const ConfigTable& table, const CaseParameter& parameter)
   return interval;
 }
 
-/// By its key, and by the words of its values where the key holds no number.
+/// By its key, and by the words of its values where the key takes words.
 CaseParameter read_parameter(const ConfigTable& table, const CaseFile& file) {
   const ConfigValue key = table.at("key");
-  if (!holds_word(key, file)) return read_case_parameter(key, file);
+  std::vector<ConfigValue> values;
+  if (table.has("values")) values = table.at("values").list();
+  if (!takes_words(key, values, file)) return read_case_parameter(key, file);
   if (!table.has("values")) throw key.error("what is there is no number: \"values\" has to list what it takes");
-  const std::vector<ConfigValue> values = table.at("values").list();
   if (values.empty()) throw table.at("values").error("at least one value is required");
   return read_word_parameter(key, values, file);
 }
