@@ -221,11 +221,11 @@ class Results:
         """sweep.csv: a row for each run of a sweep. Where it changed words, as "AT1" and "AT2", columns have these."""
         table = self.table("sweep.csv")
         words: dict[str, dict[int, str]] = {}
-        for line in (self.folder / "sweep.csv").read_text(encoding="utf-8").splitlines():
+        for line in (self.folder / "sweep.csv").read_text(encoding="utf-8").split("\n"):
             if not line.startswith("#"):
                 break
-            if told := re.match(r"# (\S+), (\d+): (.*)", line):
-                words.setdefault(told[1], {})[int(told[2])] = told[3]
+            if told := re.match(r"# (.+?), (\d+):(.*)", line):
+                words.setdefault(told[1], {})[int(told[2])] = told[3].strip()
         for name in words.keys() & set(table.columns):
             table[name] = table[name].astype(int).map(words[name])
         return table
