@@ -102,10 +102,9 @@ std::optional<std::string> of_flow(const Mesh& mesh, const FractureModel& model)
   }
   if (n_elastic == 0) return std::nullopt;
   return fmt::format(
-      "region \"{}\" ({}): {} cells are polyhedra or pyramids, whose faces bear elastically what the strain varies "
-      "within "
-      "a cell: beyond yield they are too strong, the more the farther they flow (a clamped bar by 10 to 15 % at 1 % of "
-      "strain, by 20 to 30 % at 2 %). For less: tetrahedra or hexahedra ([mesh])",
+      "region \"{}\" ({}): faces of {} polyhedra or pyramids bear elastically what the strain varies within a cell: "
+      "beyond yield they are too strong, the more the farther they flow (a clamped bar by 10 to 15 % at 1 % of strain, "
+      "20 to 30 % at 2 %). For less: tetrahedra or hexahedra ([mesh])",
       mesh.region_names[mesh.region[last]], model.in_cell(mesh, last).material->name(), n_elastic);
 }
 
