@@ -59,13 +59,16 @@ ut_system* unit_system() {
 
 bool part_of_word(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; }
 
-/// `text` with every whole word `word` replaced.
+bool is_digit(char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; }
+
+/// `text` with every whole word `word` replaced, with an exponent behind it too: "thou2".
 std::string replace_word(std::string_view text, std::string_view word, std::string_view replacement) {
   std::string result;
   for (std::size_t i = 0; i < text.size();) {
     const bool starts = i == 0 || !part_of_word(text[i - 1]);
     const std::size_t after = i + word.size();
-    if (starts && text.substr(i, word.size()) == word && (after >= text.size() || !part_of_word(text[after]))) {
+    if (starts && text.substr(i, word.size()) == word &&
+        (after >= text.size() || !part_of_word(text[after]) || is_digit(text[after]))) {
       result += replacement;
       i = after;
     } else {
