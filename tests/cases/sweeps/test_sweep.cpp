@@ -1,5 +1,6 @@
 // pfdm sweep, on a bar that breaks and on a material point.
 
+#include "cases/program/studies/sweep/shown_columns.h"
 #include "cases/program/studies/sweep/sweep_case.h"
 #include "postproc/files/csv_table.h"
 #include "tests/cases/temporary_case.h"
@@ -210,6 +211,17 @@ values = ["a*b", "a/b", "a/b", " "]
   EXPECT_TRUE(fs::exists(directory.results() / "runs_by_value/run_3"));
   const Outcome report = run({"report", directory.path().string()});
   EXPECT_EQ(report.status, 0) << report.err;
+}
+
+TEST(Sweep, ColumnsHaveUnitsAndAxesShortTitles) {
+  const ShownColumn work = shown_column("dissipation_J_per_m3", {3.8e6});
+  EXPECT_EQ(work.title(), "dissipation [MJ/m³]");
+  EXPECT_DOUBLE_EQ(work.values[0], 3.8);
+  ShownColumn word = shown_column("split", {0.0, 1.0});
+  word.names = {"none", "star_convex"};
+  EXPECT_EQ(word.title(), "split (0 none, 1 star_convex)");
+  word.names[1] = std::string(60, 'x');
+  EXPECT_EQ(word.title(), "split (values 0, 1, ... of the list)");
 }
 
 class BadSweep : public testing::TestWithParam<BadInput> {};

@@ -17,13 +17,21 @@ struct Ending {
   std::string_view ending, unit;
   bool takes_prefix;
 };
-constexpr Ending endings[] = {{"_N_per_m", "N/m", false}, {"_J_per_m2", "J/m²", false},
-                              {"_bytes", "B", true},      {"_m2", "m^2", true},
-                              {"_m3", "m^3", true},       {"_Pa", "Pa", true},
-                              {"_Hz", "Hz", true},        {"_deg", "°", false},
-                              {"_N", "N", true},          {"_J", "J", true},
-                              {"_m", "m", true},          {"_s", "s", true},
-                              {"_K", "K", false},         {"_kg", "kg", false}};
+constexpr Ending endings[] = {{"_N_per_m", "N/m", false},
+                              {"_J_per_m2", "J/m²", false},
+                              {"_J_per_m3", "J/m^3", true},
+                              {"_bytes", "B", true},
+                              {"_m2", "m^2", true},
+                              {"_m3", "m^3", true},
+                              {"_Pa", "Pa", true},
+                              {"_Hz", "Hz", true},
+                              {"_deg", "°", false},
+                              {"_N", "N", true},
+                              {"_J", "J", true},
+                              {"_m", "m", true},
+                              {"_s", "s", true},
+                              {"_K", "K", false},
+                              {"_kg", "kg", false}};
 
 constexpr std::string_view costs[] = {"threads",      "staggered_iterations", "krylov_iterations",
                                       "wall_seconds", "cpu_seconds",          "peak_memory_bytes"};
@@ -32,9 +40,11 @@ constexpr std::string_view costs[] = {"threads",      "staggered_iterations", "k
 
 std::string ShownColumn::title() const {
   if (names.empty()) return fmt::format("{} [{}]", words, unit.empty() ? "-" : unit);
+  constexpr std::size_t longest = 60;  // that an axis has room for
   std::vector<std::string> meanings;
   for (std::size_t k = 0; k < names.size(); ++k) meanings.push_back(fmt::format("{} {}", k, names[k]));
-  return fmt::format("{} ({})", words, fmt::join(meanings, ", "));
+  const std::string all = fmt::format("{} ({})", words, fmt::join(meanings, ", "));
+  return all.size() <= longest ? all : fmt::format("{} (values 0, 1, ... of the list)", words);
 }
 
 std::string ShownColumn::cell(std::size_t i) const {

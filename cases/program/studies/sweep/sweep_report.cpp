@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t most_runs_shown = 40, most_figures = 6, most_columns = 3, most_series = 8;
+constexpr std::size_t most_runs_shown = 40, most_figures = 6, most_columns = 3, most_series = 8, longest_label = 24;
 
 /// Figures that one asks for first; others that differ between the runs follow.
 constexpr std::string_view wanted_first[] = {"peak_force_N", "displacement_at_peak_m", "first_debonding_force_N",
@@ -89,7 +89,10 @@ Chart figure_chart(const CsvTable& table, const SweepColumns& columns, std::size
     if (by_value.size() > 1) {
       const std::size_t other = columns.parameters[0] == x ? columns.parameters[1] : columns.parameters[0];
       const ShownColumn column = shown_column(table, other);
-      series.label = fmt::format("{} {} {}", column.words, column.cell(runs.front()), column.unit);
+      const std::string cell = column.cell(runs.front());
+      series.label = cell.size() <= longest_label
+                         ? fmt::format("{} {} {}", column.words, cell, column.unit)
+                         : fmt::format("{} {}", column.words, table.columns[other][runs.front()]);
     } else if (columns.parameters.size() > 1) {
       series.style = SeriesStyle::points;
     }
