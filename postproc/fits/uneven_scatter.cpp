@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace pfdm {
 namespace {
@@ -22,12 +23,22 @@ ArrayXd squares_of(const FitResult& result, const MatrixXd& effects, Eigen::Inde
   return squares;
 }
 
-/// P(chi^2 of one degree of freedom > n R^2) of the line of the squares over the size.
-double chance_of_line(const ArrayXd& squares, const ArrayXd& size) {
-  const ArrayXd y = squares - squares.mean(), x = size - size.mean();
-  const double both = (x * y).sum(), all = x.square().sum() * y.square().sum();
-  if (!(all > 0.0)) return 1.0;
-  return std::erfc(std::sqrt(0.5 * static_cast<double>(squares.size()) * both * both / all));
+/// Places in the order of the values, from 0.
+ArrayXd ranks_of(const ArrayXd& values) {
+  std::vector<Eigen::Index> order(static_cast<std::size_t>(values.size()));
+  std::iota(order.begin(), order.end(), Eigen::Index{0});
+  std::ranges::stable_sort(order, {}, [&](Eigen::Index i) { return values[i]; });
+  ArrayXd ranks(values.size());
+  for (std::size_t k = 0; k < order.size(); ++k) ranks[order[k]] = static_cast<double>(k);
+  return ranks;
+}
+
+/// That the ranks of two independent lists are correlated as much, by the normal limit.
+double chance_of_order(const ArrayXd& squares, const ArrayXd& size) {
+  const ArrayXd y = ranks_of(squares), x = ranks_of(size);
+  const double n = static_cast<double>(y.size()), middle = 0.5 * (n - 1.0);
+  const double correlation = ((x - middle) * (y - middle)).sum() * 12.0 / (n * (n * n - 1.0));
+  return std::erfc(std::abs(correlation) * std::sqrt(0.5 * (n - 1.0)));
 }
 
 /// Largest of the estimates, sum of P_ji^2 e_i^2 over sum of P_ji^2 times the mean of e_i^2.
@@ -48,12 +59,12 @@ UnevenScatter uneven_scatter(const FitResult& result, const std::vector<double>&
   const MatrixXd effects = result.derivatives * result.inverse_normal;
   const ArrayXd squares = squares_of(result, effects, n);
   if (!(squares.sum() > 0.0) || !std::isfinite(squares.sum())) return {};
-  const ArrayXd size = ArrayXd::Map(measured.data(), n).abs();
+  const ArrayXd size = (ArrayXd::Map(measured.data(), n) + ArrayXd::Map(result.residuals.data(), n)).abs();
   std::vector<double> sorted(size.begin(), size.end());
   std::ranges::nth_element(sorted, sorted.begin() + n / 2);
   const ArrayXd is_large = (size >= sorted[static_cast<std::size_t>(n / 2)]).cast<double>();
   const double n_large = is_large.sum(), n_small = static_cast<double>(n) - n_large;
-  return {.probability = chance_of_line(squares, size),
+  return {.probability = chance_of_order(squares, size),
           .small = n_small > 0.0 ? std::sqrt((squares * (1.0 - is_large)).sum() / n_small) : 0.0,
           .large = std::sqrt((squares * is_large).sum() / n_large),
           .widening = widening_of(squares, effects)};

@@ -30,6 +30,8 @@ struct ChainProgram {
   ChainCase chain;
 };
 
+fs::path folder_of(const ChainStep& step) { return results_of(step).parent_path(); }
+
 /// The step's case, if it is a file of its own, and its data.
 std::vector<fs::path> files_of(const ReadyStep& ready) {
   std::vector<fs::path> named = data_files_named(ready.file);
@@ -37,13 +39,13 @@ std::vector<fs::path> files_of(const ReadyStep& ready) {
   return named;
 }
 
-/// Of the step's case and data, those that are results of earlier steps.
+/// Of the step's case and data, those that are results of earlier steps, by their way from the step's folder.
 std::vector<std::string> files_taken(const ChainProgram& program, const ReadyStep& ready) {
   std::vector<std::string> taken;
   for (const ChainStep& earlier : program.chain.steps) {
     if (&earlier == &ready.step) break;
     for (const fs::path& file : files_of(ready))
-      if (lies_in(file, results_of(earlier))) taken.push_back(file.lexically_normal().string());
+      if (lies_in(file, results_of(earlier))) taken.push_back(fs::relative(file, folder_of(ready.step)).string());
   }
   return taken;
 }
@@ -76,8 +78,9 @@ bool lacks_what_was_taken(const ChainProgram& program, const ReadyStep& ready, c
   for (const ChainStep& other : program.chain.steps) {
     const DoneStep* const done = record.find(other.name);
     if (&other == &ready.step || done == nullptr) continue;
-    std::vector<fs::path> files(done->files.begin(), done->files.end());
-    for (const TakenNumber& number : done->taken) files.push_back(results_of(other).parent_path() / number.from);
+    std::vector<fs::path> files;
+    for (const std::string& file : done->files) files.push_back(folder_of(other) / file);
+    for (const TakenNumber& number : done->taken) files.push_back(folder_of(other) / number.from);
     if (std::ranges::any_of(files, [&](const fs::path& f) { return lies_in(f, ready.results) && !fs::exists(f); }))
       return true;
   }

@@ -41,6 +41,8 @@ TEST(Units, ReadsMultiplesOfGravity) {
   EXPECT_NEAR(parse_quantity("1 kp/cm^2", dimension::stress), 98066.5, 1e-6);
   EXPECT_DOUBLE_EQ(parse_quantity("20 dyn/cm^2", dimension::stress), 2.0);
   EXPECT_DOUBLE_EQ(parse_quantity("2 thou", dimension::length), 50.8e-6);
+  EXPECT_NEAR(parse_quantity("2 oz", dimension::mass), 56.699e-3, 1e-6);
+  EXPECT_THROW(parse_quantity("5/2 mm", dimension::length), InputError);
   EXPECT_DOUBLE_EQ(parse_quantity("2 thou2", dimension::area), 2.0 * 25.4e-6 * 25.4e-6);
   EXPECT_DOUBLE_EQ(parse_quantity("0.05 g02/Hz", dimension::acceleration_density), 0.05 * g0 * g0);
   EXPECT_DOUBLE_EQ(parse_quantity("5 g0", dimension::acceleration), 5.0 * g0);

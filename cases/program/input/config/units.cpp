@@ -81,13 +81,14 @@ std::string replace_word(std::string_view text, std::string_view word, std::stri
 /// Names that testing machines and data sheets write, and what UDUNITS calls them. To UDUNITS "g0" would be gram to the
 /// power of zero.
 constexpr std::pair<std::string_view, std::string_view> other_names[] = {
-    {"g0", "gravity"}, {"lbm", "pound"}, {"kp", "kgf"}, {"dyn", "dyne"}, {"thou", "mil"}, {"Msi", "(1e6 psi)"}};
+    {"g0", "gravity"}, {"lbm", "pound"}, {"oz", "avoirdupois_ounce"}, {"kp", "kgf"},
+    {"dyn", "dyne"},   {"thou", "mil"},  {"Msi", "(1e6 psi)"}};
 
 /// Null if UDUNITS does not know it. "/K", as in "1e-5/K", is 1/K.
 Unit parse_unit(std::string_view text) {
   ut_system* const system = unit_system();
   std::string spelled(trimmed(text));
-  if (spelled.starts_with('/')) spelled.insert(0, "1");
+  if (spelled.size() > 1 && spelled[0] == '/' && !is_digit(spelled[1])) spelled.insert(0, "1");
   for (const auto& [name, known] : other_names) spelled = replace_word(spelled, name, known);
   return Unit(spelled.empty() ? nullptr : ut_parse(system, spelled.c_str(), UT_UTF8), &ut_free);
 }

@@ -26,13 +26,17 @@ std::optional<double> reach_of_interval(const FitFindings& found, std::size_t k)
   return error.widening * student_95(std::min(error.freedom, 1e9));
 }
 
+std::vector<double> in_unit_of_residuals(const MeasuredPoints& points) {
+  std::vector<double> measured;
+  for (const MeasuredPoints::Point& point : points.points) measured.push_back(point.y / points.scale(point));
+  return measured;
+}
+
 /// One more reason where noise that is not stated grows or falls with the force.
 void doubt_scatter(const MeasuredPoints& points, const FitResult& result, FitFindings& found) {
   constexpr double false_alarm = 0.002, noticeable_widening = 1.25;
   if (points.noise_is_known || found.verdict != Verdict::sound || result.rms < least_noise) return;
-  std::vector<double> measured;
-  for (const MeasuredPoints::Point& point : points.points) measured.push_back(point.y);
-  const UnevenScatter scatter = uneven_scatter(result, measured);
+  const UnevenScatter scatter = uneven_scatter(result, in_unit_of_residuals(points));
   if (!(scatter.probability < false_alarm && scatter.widening > noticeable_widening)) return;
   question(found, fmt::format("the residuals scatter by {:.2g} % of the rms force where forces are small and by {:.2g} "
                               "% where they are large, and intervals would be {:.1f} times too narrow; state the "
@@ -45,9 +49,7 @@ void doubt_stray_row(const MeasuredPoints& points, const std::vector<MeasuredCur
                      FitFindings& found) {
   constexpr double false_alarm = 1e-3, noticeable_shift = 0.3;
   if (found.verdict == Verdict::failed || (!points.noise_is_known && result.rms < least_noise)) return;
-  std::vector<double> measured;
-  for (const MeasuredPoints::Point& point : points.points) measured.push_back(point.y / points.scale(point));
-  const auto stray = stray_row(result, measured);
+  const auto stray = stray_row(result, in_unit_of_residuals(points));
   if (!stray || !(stray->probability < false_alarm && stray->shift > noticeable_shift)) return;
   const MeasuredPoints::Point& at = points.points[stray->row];
   question(found,

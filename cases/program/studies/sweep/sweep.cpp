@@ -37,6 +37,17 @@ std::vector<std::optional<ReadSummary>> summaries_of(const std::vector<DoneRun>&
   return summaries;
 }
 
+/// Names of the figures that any run has, but for those of its cost.
+std::vector<std::string> figures_of(const std::vector<std::optional<ReadSummary>>& summaries) {
+  std::vector<std::string> names;
+  for (const auto& summary : summaries) {
+    if (!summary) continue;
+    for (const auto& [name, ignored] : summary->numbers)
+      if (!is_cost(name) && std::ranges::count(names, name) == 0) names.push_back(name);
+  }
+  return names;
+}
+
 /// Whether the runs differ by seeds alone: realisations of one case.
 bool are_realisations(const SweepSettings& settings) {
   const auto is_seed = [](const std::string& key) {
@@ -152,10 +163,7 @@ CsvTable table_of(const SweepSettings& settings, const std::vector<DoneRun>& run
     table.add(column_name(settings.parameters[j]), std::move(values));
   }
   table.add("converged", converged);
-  const auto first = std::ranges::find_if(summaries, [](const auto& summary) { return summary.has_value(); });
-  if (first == summaries.end()) return table;
-  for (const auto& [name, ignored] : (*first)->numbers) {
-    if (is_cost(name)) continue;
+  for (const std::string& name : figures_of(summaries)) {
     std::vector<double> values;
     values.reserve(summaries.size());
     for (const auto& summary : summaries) values.push_back(summary ? summary->number(name) : Headlines::none);

@@ -124,7 +124,7 @@ ReportPage sweep_page(const fs::path& results, const std::string& title, const s
   for (PageRow& row : in_pairs(std::move(charts))) page.rows.push_back(std::move(row));
   if (!table.comments.empty())
     page.rows.push_back(
-        {.blocks = {TextBlock{.caption = "Folders, and runs that did not converge",
+        {.blocks = {TextBlock{.caption = "Folders, words, and runs that did not converge",
                               .lines = {table.comments.begin(),
                                         table.comments.begin() + std::min(table.comments.size(), most_runs_shown)}}}});
   return page;
