@@ -1,4 +1,5 @@
-// Intervals of pfdm fit where noise grows with the force, or a row was dropped. SYNTHETIC data: a straight line with noise.
+// Intervals of pfdm fit where noise grows with the force, or a row was dropped. SYNTHETIC data: a straight line with
+// noise.
 
 #include "tests/cases/temporary_case.h"
 

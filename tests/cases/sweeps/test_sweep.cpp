@@ -264,7 +264,7 @@ const BadInput bad_sweeps[] = {
     {"words_between_two",
      "\"grid\"\n[[sweep.parameters]]",
      "\"grid\"\n[[sweep.parameters]]\nkey = \"fracture.model\"\nbetween = [\"AT1\", \"AT2\"]\n[[sweep.parameters]]",
-     {"[sweep.parameters] key: what is there is no number: \"values\" has to list what it takes"}},
+     {"[sweep.parameters] key: its value is no number: \"values\" has to list what it takes"}},
     {"numbers_for_words",
      "\"grid\"\n[[sweep.parameters]]",
      "\"grid\"\n[[sweep.parameters]]\nkey = \"fracture.model\"\nvalues = [1, 2]\n[[sweep.parameters]]",

@@ -39,12 +39,12 @@ void keep_ratio(CaseParameter& parameter, const CaseParameter& other);
 CaseParameter read_case_parameter(const ConfigValue& key, const CaseFile& file);
 
 /// Whether a key, or the first of a list, takes words, not numbers: its value in `file` is a word, a formula, the name
-/// of a file, true or false, or one of `values` is a text that begins with no number, as of "free" and "0 mm". Throws InputError if the key is
-/// not there.
+/// of a file, true or false, or one of `values` is a text that begins with no number, as of "free" and "0 mm". Throws
+/// InputError if the key is not there.
 bool takes_words(const ConfigValue& key, std::span<const ConfigValue> values, const CaseFile& file);
 
-/// Likewise for a key that takes_words(), or a list of them, which all take one value: its values are the numbers of
-/// `values`, texts of one line or truth values. Throws InputError if a key or a value is of another type.
+/// Likewise for a key that takes_words(), or a list of them, which all take one value: the places among `values`, texts
+/// of one line or truth values. Throws InputError if a key or a value is of another type.
 CaseParameter read_word_parameter(const ConfigValue& key, std::span<const ConfigValue> values, const CaseFile& file);
 
 /// Throws InputError if the last of the parameters, which `key` is, has a key that another one has as well.

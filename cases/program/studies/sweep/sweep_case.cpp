@@ -37,7 +37,7 @@ CaseParameter read_parameter(const ConfigTable& table, const CaseFile& file) {
   std::vector<ConfigValue> values;
   if (table.has("values")) values = table.at("values").list();
   if (!takes_words(key, values, file)) return read_case_parameter(key, file);
-  if (!table.has("values")) throw key.error("what is there is no number: \"values\" has to list what it takes");
+  if (!table.has("values")) throw key.error("its value is no number: \"values\" has to list what it takes");
   if (values.empty()) throw table.at("values").error("at least one value is required");
   return read_word_parameter(key, values, file);
 }
@@ -97,7 +97,7 @@ Points samples(const std::vector<ConfigTable>& tables, const std::vector<CasePar
   for (std::size_t j = 0; j < parameters.size(); ++j) {
     if (!parameters[j].words.empty())
       throw tables[j].error(
-          fmt::format("what \"{}\" is changed to are no numbers: the method has to be \"grid\" or \"list\"", parameters[j].name));
+          fmt::format("\"{}\" takes words: the method has to be \"grid\" or \"list\"", parameters[j].name));
     const Interval interval = read_interval(tables[j], parameters[j]);
     for (std::vector<double>& point : points) point[j] = interval.at(point[j]);
   }
