@@ -24,21 +24,21 @@ def laws_of(table, surface):
     return laws
 
 
-def jump_of(traction):
-    """The first point after a fall by more than half of the strength; none: the number of points."""
-    strength = max(traction)
-    for i in range(1, len(traction)):
-        if traction[i - 1] - traction[i] > 0.5 * strength:
-            return i
-    return len(traction)
+def is_jump(before, after, strength):
+    """Whether a step falls by more than half of the strength, or from a fifth of it or more to nearly nothing."""
+    fall = before - after
+    return fall > 0.5 * strength or (fall > 0.2 * strength and after < 0.1 * before)
 
 
 def plot_law(axes, separation, traction, label, factor):
-    u, t, jump = [factor * s for s in separation], [1e-6 * v for v in traction], jump_of(traction)
-    (line,) = axes.plot(u[:jump], t[:jump], "o-", ms=3, lw=1.2, label=label)
-    if jump < len(u):
-        axes.plot(u[jump - 1 : jump + 1], t[jump - 1 : jump + 1], ":", lw=0.8, color=line.get_color())
-        axes.plot(u[jump:], t[jump:], "o-", ms=3, lw=1.2, color=line.get_color())
+    u, t = [factor * s for s in separation], [1e-6 * v for v in traction]
+    jumps = [i for i in range(1, len(t)) if is_jump(t[i - 1], t[i], max(t))]
+    colour = None
+    for start, end in zip([0, *jumps], [*jumps, len(t)]):
+        if start > 0:
+            axes.plot(u[start - 1 : start + 1], t[start - 1 : start + 1], ":", lw=0.8, color=colour)
+        (line,) = axes.plot(u[start:end], t[start:end], "o-", ms=3, lw=1.2, color=colour, label=label)
+        colour, label = line.get_color(), None
 
 
 def main():
