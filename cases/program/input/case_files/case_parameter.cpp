@@ -4,7 +4,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cctype>
 
 namespace pfdm {
 namespace {
@@ -19,13 +18,8 @@ Holds held_at(const std::string& key, const CaseFile& file) {
 
 bool is_truth(const std::string& key, const CaseFile& file) { return held_at(key, file) == Holds::truth; }
 
-/// Whether a value is a text that begins with no number, and so is no quantity, misspelt or not.
-bool is_surely_word(const ConfigValue& value) {
-  if (!value.is_string()) return false;
-  const std::string text = value.string();
-  const std::size_t at = text.find_first_not_of(" \t+-.");
-  return at == std::string::npos || std::isdigit(static_cast<unsigned char>(text[at])) == 0;
-}
+/// The one word that may stand where a quantity does.
+bool is_word_beside_quantities(const ConfigValue& value) { return value.is_string() && value.string() == "free"; }
 
 std::vector<ConfigValue> keys_of(const ConfigValue& key) {
   std::vector<ConfigValue> keys = key.is_list() ? key.list() : std::vector{key};
@@ -94,7 +88,7 @@ CaseParameter read_case_parameter(const ConfigValue& key, const CaseFile& file) 
 bool takes_words(const ConfigValue& key, std::span<const ConfigValue> values, const CaseFile& file) {
   const ConfigValue first = keys_of(key).front();
   const Holds held = first.in_context([&] { return held_at(first.string(), file); });
-  if (held != Holds::text || std::ranges::any_of(values, is_surely_word)) return held != Holds::other;
+  if (held != Holds::text || std::ranges::any_of(values, is_word_beside_quantities)) return held != Holds::other;
   try {
     case_parameter(first.string(), file);
     return false;

@@ -39,8 +39,8 @@ void keep_ratio(CaseParameter& parameter, const CaseParameter& other);
 CaseParameter read_case_parameter(const ConfigValue& key, const CaseFile& file);
 
 /// Whether a key, or the first of a list, takes words, not numbers: its value in `file` is a word, a formula, the name
-/// of a file, true or false, or one of `values` is a text that begins with no number, as of "free" and "0 mm". Throws
-/// InputError if the key is not there.
+/// of a file, true or false, or one of `values` is "free", as of "free" and "0 mm". Throws InputError if the key is
+/// not there.
 bool takes_words(const ConfigValue& key, std::span<const ConfigValue> values, const CaseFile& file);
 
 /// Likewise for a key that takes_words(), or a list of them, which all take one value: the places among `values`, texts
