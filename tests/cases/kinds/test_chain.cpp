@@ -1,5 +1,6 @@
 // A case of kind "chain": a homogenised laminate, a mass on a sample of it, and what is refused.
 
+#include "tests/cases/kinds/one_material.h"
 #include "tests/cases/temporary_case.h"
 
 #include <gmock/gmock.h>
@@ -21,24 +22,7 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-// One material: its own modulus is the effective one.
-std::string block(const std::string& modulus) {
-  return R"(kind = "homogenize"
-title = "one material"
-[mesh]
-generator = "box_hexes"
-x = [{ length = "1 mm", cells = 2 }]
-y = [{ length = "1 mm", cells = 2 }]
-z = [{ length = "1 mm", cells = 2 }]
-region = "rubber"
-[materials.rubber]
-regions = ["rubber"]
-young_modulus = ")" +
-         modulus + R"("
-poisson_ratio = 0.4
-loss_factor = 0.2
-)";
-}
+std::string block(const std::string& modulus) { return one_material("\"" + modulus + "\""); }
 
 constexpr const char* sample = R"(kind = "mass_material"
 title = "a mass on a sample of it"

@@ -1,5 +1,6 @@
 // Chains whose steps take from each other: in which order, and of results that are gone.
 
+#include "tests/cases/kinds/one_material.h"
 #include "tests/cases/temporary_case.h"
 
 #include <gmock/gmock.h>
@@ -17,20 +18,6 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-std::string block(const std::string& modulus) {
-  return R"(kind = "homogenize"
-title = "one material"
-[mesh]
-generator = "box_hexes"
-x = [{ length = "1 mm", cells = 2 }]
-y = [{ length = "1 mm", cells = 2 }]
-z = [{ length = "1 mm", cells = 2 }]
-[materials.rubber]
-regions = ["body"]
-young_modulus = )" +
-         modulus + "\npoisson_ratio = 0.4\n";
-}
-
 std::string chain_of(const std::string& first, const std::string& second) {
   return "kind = \"chain\"\ntitle = \"two blocks\"\n[[step]]\ncase = \"" + first + "\"\n[[step]]\ncase = \"" + second +
          "\"\n";
@@ -39,8 +26,8 @@ std::string chain_of(const std::string& first, const std::string& second) {
 class ChainOrder : public testing::Test {
  protected:
   ChainOrder() : directory(chain_of("given", "taken")) {
-    put("given", block("\"10 MPa\""));
-    put("taken", block(R"({ from = "../given/results/homogenized.json", key = "isotropic.young_modulus_Pa" })"));
+    put("given", one_material("\"10 MPa\""));
+    put("taken", one_material(R"({ from = "../given/results/homogenized.json", key = "isotropic.young_modulus_Pa" })"));
   }
   void put(const std::string& step, const std::string& text) const {
     fs::create_directories(directory.path() / step);
@@ -64,7 +51,7 @@ TEST_F(ChainOrder, AStepIsDoneAgainWhereALaterOneLacksItsFile) {
 TEST_F(ChainOrder, AStepCannotTakeFromALaterOne) {
   ASSERT_EQ(command("run").status, 0);
   directory.write("case.toml", chain_of("taken", "given"));
-  put("given", block("\"40 MPa\""));
+  put("given", one_material("\"40 MPa\""));
   for (const char* word : {"check", "run"}) {
     const Outcome outcome = command(word);
     EXPECT_EQ(outcome.status, 2);
