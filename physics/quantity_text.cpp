@@ -63,6 +63,7 @@ ScaledUnit scaled_seconds(double largest) {
 
 std::string quantity_text(double si, std::string_view si_unit, int digits) {
   if (!std::isfinite(si)) return "-";
+  if (si_unit == "1") return number_text(si, digits);
   const ScaledUnit unit = scaled_unit(si, si_unit);
   return fmt::format("{} {}", number_text(unit.factor * si, digits), unit.name);
 }

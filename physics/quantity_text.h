@@ -28,7 +28,8 @@ ScaledUnit scaled_unit(double largest, std::string_view si_unit);
 /// Seconds, or parts of them: people write no kiloseconds.
 ScaledUnit scaled_seconds(double largest);
 
-/// A number in SI with its unit and `digits` digits: "60.1 um", "2.5 MPa", "1.5 kJ/m^2". "-" for what is no number.
+/// A number in SI with its unit and `digits` digits: "60.1 um", "2.5 MPa", "1.5 kJ/m^2". Of the unit "1" the
+/// number alone; "-" for what is no number.
 std::string quantity_text(double si, std::string_view si_unit, int digits = 4);
 
 /// Several in one unit, which suits the largest, joined by `between`: "10 to 300 um".

@@ -32,7 +32,8 @@ struct FittedParameter {
   bool log_scale = false;
   std::optional<FittedProfile> profile = std::nullopt;
   std::optional<SampledInterval> posterior = std::nullopt;  ///< solver/calibration/posterior.h
-  double widened_by = 1.0;                                  ///< standard error and interval, for correlated residuals
+  double widened_by = 1.0;  ///< standard error and interval, for residuals that are correlated or scatter unevenly
+  double freedom = std::numeric_limits<double>::infinity();  ///< of Student's t, where widened
   /// How far a finer discretisation moves the estimate, to first order; NaN: it was not tried.
   double moved_by_finer = std::numeric_limits<double>::quiet_NaN();
 };
@@ -71,8 +72,6 @@ struct FitFindings {
   std::vector<FitIteration> starts{};    ///< what each start came to
   std::vector<FitIteration> path{};      ///< of the best start
   std::vector<FitIteration> screened{};  ///< points of a sample
-  /// By which the intervals of the parameters were widened; empty unless correlated residuals did so.
-  std::vector<CorrelatedError> correlated{};
   std::optional<PosteriorFindings> posterior = std::nullopt;
   std::string sensitivity_file{};  ///< by how much each parameter moves each part of the curve; empty: none
   std::string finer{};             ///< the finer discretisation; empty: none was tried

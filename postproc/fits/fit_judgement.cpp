@@ -27,14 +27,6 @@ std::vector<CorrelatedError> errors_if_correlated(const JudgedData& data) {
   return correlated_errors(*data.result, lengths);
 }
 
-void widen(FittedParameter& p, const CorrelatedError& error) {
-  p.widened_by = error.widening;
-  p.standard_error *= error.widening;
-  const double reach = student_95(std::min(error.freedom, 1e9)) * p.standard_error;
-  p.lower = p.log_scale ? p.estimate * std::exp(-reach / p.estimate) : p.estimate - reach;
-  p.upper = p.log_scale ? p.estimate * std::exp(reach / p.estimate) : p.estimate + reach;
-}
-
 FitEvidence evidence_of(const FitFindings& found, const JudgedData& data) {
   FitEvidence evidence{.converged = found.converged,
                        .message = found.message,
@@ -148,6 +140,15 @@ void add_moves(FitFindings& found, const JudgedData& data) {
 
 }  // namespace
 
+void widen(FittedParameter& p, double by, double freedom) {
+  p.widened_by = by;
+  p.freedom = freedom;
+  p.standard_error *= by;
+  const double reach = student_95(std::min(freedom, 1e9)) * p.standard_error;
+  p.lower = p.log_scale ? p.estimate * std::exp(-reach / p.estimate) : p.estimate - reach;
+  p.upper = p.log_scale ? p.estimate * std::exp(reach / p.estimate) : p.estimate + reach;
+}
+
 void hold_move(const FittedParameter& p, double& lower, double& upper) {
   if (!std::isfinite(p.moved_by_finer)) return;
   const double factor = 1.0 + p.moved_by_finer / p.estimate;
@@ -174,10 +175,9 @@ bool judge(FitFindings& found, JudgedData data) {
   found.verdict = judgement.verdict;
   found.reasons = std::move(judgement.reasons);
   found.converged = found.converged && found.verdict != Verdict::failed;
-  if (found.verdict == Verdict::correlated) {
-    for (std::size_t j = 0; j < evidence.correlated.size(); ++j) widen(found.parameters[j], evidence.correlated[j]);
-    found.correlated = std::move(evidence.correlated);
-  }
+  if (found.verdict == Verdict::correlated)
+    for (std::size_t j = 0; j < evidence.correlated.size(); ++j)
+      widen(found.parameters[j], evidence.correlated[j].widening, evidence.correlated[j].freedom);
   if (data.finer && data.result != nullptr) add_moves(found, data);
   if (!is_sound(found.verdict)) withhold_intervals(found);
   return judgement.model_error;
@@ -190,7 +190,6 @@ void question(FitFindings& found, std::string reason) {
 }
 
 void withhold_intervals(FitFindings& found) {
-  found.correlated.clear();
   const bool holds_discrepancy = found.posterior && found.posterior->discrepancy;
   if (!holds_discrepancy) found.posterior.reset();
   for (FittedParameter& p : found.parameters) {

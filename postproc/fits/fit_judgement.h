@@ -33,6 +33,10 @@ struct JudgedData {
 /// error is of the noise alone. Returns whether the residuals are more than white noise.
 bool judge(FitFindings& found, JudgedData data);
 
+/// Standard error and interval are larger by a factor, 1 or more; the interval by Student's t of so many degrees of
+/// freedom.
+void widen(FittedParameter& p, double by, double freedom);
+
 /// One more reason: the findings are questionable at best, and lose their intervals.
 void question(FitFindings& found, std::string reason);
 /// All of them but those of a posterior that holds a discrepancy of the model.

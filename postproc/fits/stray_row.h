@@ -16,10 +16,13 @@ struct StrayRow {
 };
 
 /// The row that is least probable, by externally studentised residuals with Bonferroni's bound (Cook and Weisberg,
-/// Residuals and Influence in Regression, 1982, 2.2.2). `measured`: what the first residuals belong to, in their unit;
+/// Residuals and Influence in Regression, 1982, 2.2.2). `records`: what the first residuals belong to, in their unit,
 /// one record after the other. Only rows count that lie as far from the lines through their neighbours before and
-/// after, to one side: a peak does not, nor do rows beside a jump that the fit has a row too early or too late. Nothing
-/// of fewer than eight rows, or without derivatives.
-std::optional<StrayRow> stray_row(const FitResult& result, const std::vector<double>& measured);
+/// after, to one side: a peak does not, nor do rows beside a jump that the fit has a row too early or too late. Where
+/// the noise is known, residuals that are larger all over count as noise; where it is not and follows `sizes`
+/// (uneven_scatter.h), the row counts among those of like size. Nothing of fewer than eight rows, or without
+/// derivatives.
+std::optional<StrayRow> stray_row(const FitResult& result, const std::vector<std::vector<double>>& records,
+                                  const std::vector<double>& sizes = {});
 
 }  // namespace pfdm

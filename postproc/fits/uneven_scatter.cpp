@@ -41,33 +41,39 @@ double chance_of_order(const ArrayXd& squares, const ArrayXd& size) {
   return std::erfc(std::abs(correlation) * std::sqrt(0.5 * (n - 1.0)));
 }
 
-/// Largest of the estimates, sum of P_ji^2 e_i^2 over sum of P_ji^2 times the mean of e_i^2.
-double widening_of(const ArrayXd& squares, const MatrixXd& effects) {
-  double most = 1.0;
+/// Of each estimate, the root of the sum of P_ji^2 e_i^2 over the sum of P_ji^2 times the mean of e_i^2.
+std::vector<double> widening_of(const ArrayXd& squares, const MatrixXd& effects) {
+  std::vector<double> widening;
   for (Eigen::Index j = 0; j < effects.cols(); ++j) {
     const ArrayXd weight = effects.col(j).head(squares.size()).array().square();
-    if (weight.sum() > 0.0) most = std::max(most, (weight * squares).sum() / (weight.sum() * squares.mean()));
+    const double even = weight.sum() * squares.mean();
+    widening.push_back(even > 0.0 ? std::sqrt(std::max((weight * squares).sum() / even, 1.0)) : 1.0);
   }
-  return std::sqrt(most);
+  return widening;
 }
 
 }  // namespace
 
-UnevenScatter uneven_scatter(const FitResult& result, const std::vector<double>& measured) {
-  const auto n = static_cast<Eigen::Index>(std::min(measured.size(), result.residuals.size()));
+double UnevenScatter::widest() const { return widening.empty() ? 1.0 : std::ranges::max(widening); }
+
+UnevenScatter uneven_scatter(const FitResult& result, const std::vector<double>& sizes) {
+  const auto n = static_cast<Eigen::Index>(std::min(sizes.size(), result.residuals.size()));
   if (n < least_values || result.inverse_normal.size() == 0 || result.derivatives.rows() < n) return {};
   const MatrixXd effects = result.derivatives * result.inverse_normal;
   const ArrayXd squares = squares_of(result, effects, n);
   if (!(squares.sum() > 0.0) || !std::isfinite(squares.sum())) return {};
-  const ArrayXd size = (ArrayXd::Map(measured.data(), n) + ArrayXd::Map(result.residuals.data(), n)).abs();
+  const ArrayXd size = ArrayXd::Map(sizes.data(), n);
   std::vector<double> sorted(size.begin(), size.end());
   std::ranges::nth_element(sorted, sorted.begin() + n / 2);
-  const ArrayXd is_large = (size >= sorted[static_cast<std::size_t>(n / 2)]).cast<double>();
+  const double median = sorted[static_cast<std::size_t>(n / 2)];
+  const ArrayXd is_large = (size >= median).cast<double>();
   const double n_large = is_large.sum(), n_small = static_cast<double>(n) - n_large;
   return {.probability = chance_of_order(squares, size),
+          .median = median,
           .small = n_small > 0.0 ? std::sqrt((squares * (1.0 - is_large)).sum() / n_small) : 0.0,
           .large = std::sqrt((squares * is_large).sum() / n_large),
-          .widening = widening_of(squares, effects)};
+          .widening = widening_of(squares, effects),
+          .freedom = static_cast<double>(result.derivatives.rows() - result.derivatives.cols())};
 }
 
 }  // namespace pfdm

@@ -12,15 +12,19 @@ namespace pfdm {
 struct UnevenScatter {
   /// That even noise orders the squares of residuals by size as much (Spearman, Am. J. Psychol. 15 (1904) 72).
   double probability = 1.0;
-  double small = 0.0, large = 0.0;  ///< rms of the residuals where the model has less and more than its median
-  /// Of the standard error of the estimate that is least exact for it, without assuming even noise, over the one by
-  /// even noise (White, Econometrica 48 (1980) 817; HC2 of MacKinnon and White, J. Econometrics 29 (1985) 305).
-  double widening = 1.0;
+  double median = 0.0;              ///< of the sizes
+  double small = 0.0, large = 0.0;  ///< rms of the residuals where the model has less than the median, and others
+  /// Of the standard error of each estimate, without assuming even noise, over the one by even noise, at least 1
+  /// (White, Econometrica 48 (1980) 817; HC2 of MacKinnon and White, J. Econometrics 29 (1985) 305). Empty: not known.
+  std::vector<double> widening{};
+  double freedom = 0.0;  ///< degrees of freedom of their Student's t
+
+  double widest() const;  ///< 1 where it is not known
 };
 
-/// `measured`: what the first residuals of the result, of the model less what was measured, belong to, in their unit;
-/// others, as those of events, are left out. The size is the model's: where it has no force what was measured is the
-/// residual itself. Fewer than 16 values, and fits without derivatives, say nothing.
-UnevenScatter uneven_scatter(const FitResult& result, const std::vector<double>& measured);
+/// `sizes`: the model's, not negative, where the first residuals of the result are; others, as those of events, are
+/// left out. Not what was measured: where the model has no force that is the residual itself. Fewer than 16 values, and
+/// fits without derivatives, say nothing.
+UnevenScatter uneven_scatter(const FitResult& result, const std::vector<double>& sizes);
 
 }  // namespace pfdm

@@ -4,11 +4,13 @@
 #include "cases/program/session/fit_verdict.h"
 #include "cases/program/session/terminal/stopwatch.h"
 #include "physics/error.h"
+#include "physics/quantity_text.h"
 #include "postproc/files/atomic_file.h"
 #include "postproc/files/csv_table.h"
 #include "postproc/files/folder_lock.h"
 #include "postproc/files/json.h"
 #include "postproc/fits/fit_judgement.h"
+#include "postproc/fits/record_doubts.h"
 
 #include <fmt/format.h>
 
@@ -101,6 +103,32 @@ std::vector<FitSuspect> add_suspects(const PlateFit& fit, const FitResult& resul
       question(found, fmt::format("the rms of the residuals would fall from {:.3g} to {:.3g} with {}", result.rms,
                                   suspect.rms, suspect.what));
   return suspects;
+}
+
+std::vector<FittedRecord> records_of(const PlateFit& fit) {
+  std::vector<FittedRecord> records;
+  const auto add = [&](const std::vector<double>& measured, double deviation, auto row) {
+    FittedRecord& record = records.emplace_back(FittedRecord{.row = std::move(row)});
+    for (const double value : measured) record.measured.push_back(value / deviation);
+  };
+  for (const MeasuredResponse& measured : fit.responses) {
+    std::vector<double> logarithms;
+    for (const double magnitude : measured.magnitude) logarithms.push_back(std::log(magnitude));
+    const auto row = [&measured](const char* what, const std::vector<double>& values) {
+      return [&measured, &values, what](std::size_t i) {
+        return fmt::format("the row of {} with a {} of {:.4g} at {}", measured.name, what, values[i],
+                           quantity_text(measured.frequency[i], "Hz"));
+      };
+    };
+    add(logarithms, measured.deviation, row("magnitude", measured.magnitude));
+    if (!measured.phase.empty()) add(measured.phase, measured.deviation, row("phase in radians", measured.phase));
+  }
+  for (const MeasuredRise& measured : fit.rises)
+    add(measured.rise, measured.deviation, [&measured](std::size_t i) {
+      return fmt::format("the row of {} with a rise of {} at {}", measured.name, quantity_text(measured.rise[i], "K"),
+                         quantity_text(measured.time[i], "s"));
+    });
+  return records;
 }
 
 void write_curves(const fs::path& folder, const PlateFit& fit, const PlateCurves& first, const PlateCurves& fitted) {
@@ -206,6 +234,7 @@ void fit_plate(const PlateProgram& program, Session& session) {
                     .misfit = std::ranges::max(experiments, {}, &ExperimentMisfit::relative).relative,
                     .finer = on_finer_mesh(program.file, fit, result.values(), session.log)}))
     suspects = add_suspects(fit, result, model, settings, found);
+  doubt_stray_row(result, records_of(fit), 0.0, found);
   FitReport report{.case_name = program.name,
                    .case_hash = program.hash,
                    .version = session.version,

@@ -3,14 +3,17 @@
 #include "cases/program/input/laws/endochronic_reader.h"
 #include "cases/program/point/endochronic_comparison.h"
 #include "cases/program/studies/fit/material_tests.h"
+#include "physics/quantity_text.h"
 #include "postproc/files/atomic_file.h"
 #include "postproc/files/csv_table.h"
 #include "postproc/fits/fit_judgement.h"
+#include "postproc/fits/record_doubts.h"
 #include "postproc/point/endochronic_fit.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace pfdm {
 namespace {
@@ -35,6 +38,29 @@ std::vector<ResidualSeries> series_of(const EndochronicFit& fit, const std::vect
       at = end;
     }
   return result;
+}
+
+std::vector<FittedRecord> records_of(const EndochronicFit& fit, const EndochronicLaw& law) {
+  const bool known = noise_is_known(fit.experiments);
+  std::vector<FittedRecord> records;
+  for (const MaterialExperiment& test : fit.experiments) {
+    const auto fitted = respond(law, test, fit.settings.control);
+    const double rms = rms_measured(fit.experiments, test.follows_stress);
+    for (std::size_t c = 0; fitted && c < test.channels.size(); ++c) {
+      const MaterialExperiment::Channel& channel = test.channels[c];
+      FittedRecord record{.row = [&test, &channel](std::size_t i) {
+        return fmt::format("the row of {} with a {} of {} at {}", test.name, test.follows_stress ? "strain" : "stress",
+                           quantity_text(channel.values[i], test.follows_stress ? "1" : "Pa", 4),
+                           quantity_text(test.loading.times[i], "s", 4));
+      }};
+      for (std::size_t i = 0; i < channel.values.size(); ++i) {
+        record.measured.push_back(channel.values[i] / (known ? channel.noise : rms));
+        record.size.push_back(std::abs((*fitted)[c][i]) / rms);
+      }
+      records.push_back(std::move(record));
+    }
+  }
+  return records;
 }
 
 /// What doubts about the fit say of the law. Terms of the kernel that saturate at once stand for a yield surface.
@@ -99,6 +125,11 @@ FitFindings judged(const EndochronicFit& fit, const EndochronicIdentification& f
                        .reasons = failed_predictions(fit, found.fit.law, misfit),
                        .finer = misfit < negligible_misfit ? std::nullopt : with_quarter_steps(fit, found)});
   suspect_law(found.fit.law, misfit, model_error, findings);
+  const std::vector<FittedRecord> records = records_of(fit, found.fit.law);
+  doubt_stray_row(found.fit.result, records, negligible_misfit, findings);
+  widen_for_uneven_scatter(found.fit.result, records, negligible_misfit,
+                           "such noise cannot be stated, which leaves the estimates less exact than they could be",
+                           findings);
   return findings;
 }
 

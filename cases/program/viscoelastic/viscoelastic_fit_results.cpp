@@ -3,10 +3,12 @@
 #include "cases/program/input/laws/prony_reader.h"
 #include "cases/program/studies/fit/material_tests.h"
 #include "cases/program/viscoelastic/viscoelastic_fit_band.h"
+#include "physics/quantity_text.h"
 #include "postproc/files/atomic_file.h"
 #include "postproc/files/csv_table.h"
 #include "postproc/files/unit_key.h"
 #include "postproc/fits/fit_judgement.h"
+#include "postproc/fits/record_doubts.h"
 #include "postproc/point/viscoelastic_fit.h"
 
 #include <fmt/format.h>
@@ -63,6 +65,31 @@ std::vector<ResidualSeries> series_of_tests(const ViscoelasticFitCase& fit, cons
   return result;
 }
 
+std::vector<FittedRecord> records_of_tests(const ViscoelasticFitCase& fit, const ViscoelasticIdentification& found) {
+  std::vector<FittedRecord> records;
+  auto deviation = found.deviations.begin();
+  for (const ViscoelasticExperiment& test : fit.experiments) {
+    const auto fitted = respond(found.fit.law, test);
+    for (std::size_t c = 0; c < test.channels.size(); ++c) {
+      const ViscoelasticExperiment::Channel& channel = test.channels[c];
+      const double rms = rms_of(channel.values);
+      FittedRecord record{.row = [&test, &channel](std::size_t i) {
+        const std::string at = test.is_frequency_sweep()
+                                   ? quantity_text(test.angular_frequencies[i] / (2.0 * std::numbers::pi), "Hz", 4)
+                                   : quantity_text(test.times[i], "s", 4);
+        return fmt::format("the row of {} with a {} of {} at {}", test.name, name_of(channel.quantity),
+                           quantity_text(channel.values[i], std::string(unit_of(channel.quantity)), 4), at);
+      }};
+      for (std::size_t i = 0; i < channel.values.size(); ++i, ++deviation) {
+        record.measured.push_back(channel.values[i] / *deviation);
+        record.size.push_back(std::abs(fitted[c][i]) / rms);
+      }
+      records.push_back(std::move(record));
+    }
+  }
+  return records;
+}
+
 /// The fit began elsewhere where it chose the branches, and did not begin at its last refinement.
 void set_first_guess(const ViscoelasticFitCase& fit, FitFindings& findings) {
   for (FittedParameter& p : findings.parameters) p.first_guess = std::nan("");
@@ -88,6 +115,11 @@ FitFindings judged_tests(const ViscoelasticFitCase& fit, const ViscoelasticIdent
         fmt::format("a Prony series of {} shear branch{}, the same in all tests, is the wrong model for these data, "
                     "which it misses by up to {:.2g} %",
                     found.fit.law.shear.size(), found.fit.law.shear.size() == 1 ? "" : "es", 100.0 * misfit));
+  const std::vector<FittedRecord> records = records_of_tests(fit, found);
+  doubt_stray_row(found.fit.result, records, negligible_residual, findings);
+  widen_for_uneven_scatter(found.fit.result, records, negligible_residual,
+                           "a relative_noise, stated, makes the estimates exacter where noise is a part of the value",
+                           findings);
   return findings;
 }
 

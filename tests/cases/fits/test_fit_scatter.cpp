@@ -44,8 +44,8 @@ between = ["0 um", "6 um"]
   return json::parse(content_of(directory.results() / "fit.json"));
 }
 
-// A slope rests on the rows with the largest forces: noise of 8 % of each force leaves intervals 1.34 times too narrow.
-TEST(FitScatter, NoiseThatGrowsWithTheForceHasToBeStated) {
+// A slope rests on the rows with the largest forces: even noise would leave intervals 1.34 times too narrow.
+TEST(FitScatter, NoiseThatGrowsWithTheForceWidensTheInterval) {
   std::mt19937 engine(3);
   std::normal_distribution<double> normal(0.0, 0.08);
   std::string record = "# SYNTHETIC\nu_m,F_N,s\n";
@@ -54,12 +54,14 @@ TEST(FitScatter, NoiseThatGrowsWithTheForceHasToBeStated) {
     record += fmt::format("{},{},{}\n", 3e-8 * i, force * (1.0 + normal(engine)), 0.08 * force);
   }
   const json unstated = fitted(record, ""), stated = fitted(record, "deviation = { column = \"s\" }\n");
-  EXPECT_EQ(unstated["verdict"], "questionable") << unstated["reasons"];
-  EXPECT_TRUE(unstated["parameters"][0]["lower"].is_null());
-  EXPECT_THAT(unstated["reasons"].dump(), HasSubstr("intervals would be 1."));
-  EXPECT_THAT(unstated["reasons"].dump(), HasSubstr("state the deviation of each row"));
+  EXPECT_EQ(unstated["verdict"], "sound") << unstated["reasons"];
+  EXPECT_NEAR(unstated["parameters"][0]["widened_by"], 1.34, 0.1);
+  EXPECT_LT(unstated["parameters"][0]["lower"], 33e9);
+  EXPECT_GT(unstated["parameters"][0]["upper"], 33e9);
+  EXPECT_THAT(unstated["warnings"].dump(), HasSubstr("the intervals are widened for it, up to 1.3 times"));
+  EXPECT_THAT(unstated["warnings"].dump(), HasSubstr("the deviation of each row, stated"));
   EXPECT_EQ(stated["verdict"], "sound") << stated["reasons"];
-  EXPECT_FALSE(stated["parameters"][0]["lower"].is_null());
+  EXPECT_LT(stated["parameters"][0]["standard_error"], unstated["parameters"][0]["standard_error"]);
 }
 
 // A row that the machine dropped moves the slope by several standard errors.

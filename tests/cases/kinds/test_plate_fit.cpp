@@ -205,6 +205,20 @@ TEST(PlateFit, NamesTheOtherSignOfPhaseAndARelativeH1) {
   EXPECT_TRUE(fit["parameters"][0]["lower"].is_null());
 }
 
+// As a tone of the mains in one line of an analyser.
+TEST(PlateFit, NamesARowThatLiesOffTheOthers) {
+  const TemporaryCase directory(plate_of(14, 0.3, 4) + fit_of_three);
+  write_twin_data(plate_of(20, 0.2, 10), directory);
+  int row = 0;
+  change_H1(directory, [&](std::complex<double> H) { return H * (++row == 20 ? 1.3 : 1.0); });
+  const json fit = fitted(directory);
+  EXPECT_EQ(fit["verdict"], "questionable") << fit["reasons"];
+  const CsvTable table = read_csv(directory.path() / "H1.csv");
+  EXPECT_THAT(fit["reasons"].dump(),
+              testing::HasSubstr(fmt::format("the row of sweep with a magnitude of {:.4g} at {:.4g} Hz lies ",
+                                             table.column("magnitude")[19], table.column("frequency_Hz")[19])));
+}
+
 // Data of a plate of seven layers, which are those that four are compared with.
 TEST(PlateFit, TellsTheErrorOfItsMeshBesideTheInterval) {
   const TemporaryCase directory(plate_of(14, 0.3, 4) + fit_of_three);

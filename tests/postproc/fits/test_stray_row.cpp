@@ -33,7 +33,7 @@ TEST(StrayRow, OfADroppedRowIsFoundAndItsShiftIsThatOfLeavingItOut) {
   noise[dropped] -= record(noise)[dropped] / 0.02;
   ASSERT_NEAR(record(noise)[dropped], 0.0, 1e-12);
   const FitResult result = fitted(noise);
-  const auto stray = stray_row(result, record(noise));
+  const auto stray = stray_row(result, {record(noise)});
   ASSERT_TRUE(stray);
   EXPECT_EQ(stray->row, dropped);
   EXPECT_GT(stray->distance, 20.0);
@@ -53,7 +53,7 @@ TEST(StrayRow, IsNoneOfNoise) {
     int told = 0;
     for (int k = 0; k < 200; ++k) {
       const std::vector<double> noise = noisy_bar::noise(kind, n, engine);
-      const auto stray = stray_row(fitted(noise), record(noise));
+      const auto stray = stray_row(fitted(noise), {record(noise)});
       told += stray && stray->probability < 1e-3 ? 1 : 0;
     }
     EXPECT_LE(told, 2) << kind << ", of 200";
@@ -79,16 +79,59 @@ TEST(StrayRow, BesideAJumpIsNone) {
     for (std::size_t i = 0; i < n; ++i) residuals[i] -= measured[i];
     return residuals;
   };
-  const auto stray = stray_row(fit(problem, {.step = 1e-4}), measured);
+  const auto stray = stray_row(fit(problem, {.step = 1e-4}), {measured});
   ASSERT_TRUE(stray);
   EXPECT_NE(stray->row, last);
   EXPECT_GT(stray->probability, 1e-3);
 }
 
+// The first row of a record has no neighbours in the record before.
+TEST(StrayRow, AtTheSeamOfTwoRecordsIsNone) {
+  std::mt19937_64 engine(6);
+  std::vector<double> noise = noisy_bar::noise("white", n, engine);
+  noise[dropped] -= record(noise)[dropped] / 0.02;
+  const FitResult result = fitted(noise);
+  const std::vector<double> all = record(noise);
+  const auto middle = all.begin() + dropped;
+  const auto whole = stray_row(result, {all}), cut = stray_row(result, {{all.begin(), middle}, {middle, all.end()}});
+  ASSERT_TRUE(whole);
+  EXPECT_EQ(whole->row, dropped);
+  EXPECT_FALSE(cut && cut->row == dropped);
+}
+
+// Of a model that is wrong everywhere no row stands out by the noise alone.
+TEST(StrayRow, OfAWrongModelWithKnownNoiseIsNone) {
+  std::mt19937_64 engine(8);
+  FitResult result = fitted(noisy_bar::noise("white", n, engine));
+  const double sigma = result.rms;
+  for (double& r : result.residuals) r *= 30.0 / sigma;
+  result.sum_of_squares *= 900.0 / (sigma * sigma);
+  result.noise_is_known = true;
+  const auto stray = stray_row(result, {result.residuals});
+  EXPECT_FALSE(stray && stray->probability < 1e-3);
+}
+
+// A load cell whose error is a share of the force.
+TEST(StrayRow, IsNoneOfNoiseThatGrowsWithTheForce) {
+  std::mt19937_64 engine(9);
+  const std::vector<double> exact = record(std::vector<double>(n, 0.0));
+  int told = 0, told_without_sizes = 0;
+  for (int k = 0; k < 200; ++k) {
+    std::vector<double> noise = noisy_bar::noise("white", n, engine);
+    for (std::size_t i = 0; i < n; ++i) noise[i] *= 0.03 + std::pow(exact[i], 2);
+    const FitResult result = fitted(noise);
+    const auto stray = stray_row(result, {record(noise)}, exact), raw = stray_row(result, {record(noise)});
+    told += stray && stray->probability < 1e-3 ? 1 : 0;
+    told_without_sizes += raw && raw->probability < 1e-3 ? 1 : 0;
+  }
+  EXPECT_LE(told, 4) << "of 200";
+  EXPECT_GT(told_without_sizes, 10);
+}
+
 TEST(StrayRow, OfFewRowsIsNotKnown) {
   std::mt19937_64 engine(7);
   const std::vector<double> noise = noisy_bar::noise("white", 7, engine);
-  EXPECT_FALSE(stray_row(fitted(noise), record(noise)));
+  EXPECT_FALSE(stray_row(fitted(noise), {record(noise)}));
 }
 
 }  // namespace

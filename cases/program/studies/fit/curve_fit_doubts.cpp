@@ -5,59 +5,44 @@
 #include "cases/program/studies/fit/interval_trial.h"
 #include "cases/program/studies/runs/finer_case.h"
 #include "physics/quantity_text.h"
-#include "postproc/fits/stray_row.h"
-#include "postproc/fits/uneven_scatter.h"
+#include "postproc/fits/record_doubts.h"
 #include "solver/calibration/calibration_statistics.h"
 #include "solver/calibration/profile_likelihood.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace pfdm {
 namespace {
 
 constexpr double least_noise = 1e-3;  // of the rms force: what load steps leave scatters as it likes
 
-/// Deviations at the ends of an interval by profile likelihood; nothing where the residuals are independent.
-std::optional<double> reach_of_interval(const FitFindings& found, std::size_t k) {
-  if (found.correlated.empty()) return std::nullopt;
-  const CorrelatedError& error = found.correlated[k];
-  return error.widening * student_95(std::min(error.freedom, 1e9));
+/// Deviations at the ends of an interval by profile likelihood; nothing where it is not widened.
+std::optional<double> reach_of_interval(const FittedParameter& p) {
+  if (p.widened_by == 1.0) return std::nullopt;
+  return p.widened_by * student_95(std::min(p.freedom, 1e9));
 }
 
-std::vector<double> in_unit_of_residuals(const MeasuredPoints& points) {
-  std::vector<double> measured;
-  for (const MeasuredPoints::Point& point : points.points) measured.push_back(point.y / points.scale(point));
-  return measured;
-}
-
-/// One more reason where noise that is not stated grows or falls with the force.
-void doubt_scatter(const MeasuredPoints& points, const FitResult& result, FitFindings& found) {
-  constexpr double false_alarm = 0.002, noticeable_widening = 1.25;
-  if (points.noise_is_known || found.verdict != Verdict::sound || result.rms < least_noise) return;
-  const UnevenScatter scatter = uneven_scatter(result, in_unit_of_residuals(points));
-  if (!(scatter.probability < false_alarm && scatter.widening > noticeable_widening)) return;
-  question(found, fmt::format("the residuals scatter by {:.2g} % of the rms force where forces are small and by {:.2g} "
-                              "% where they are large, and intervals would be {:.1f} times too narrow; state the "
-                              "deviation of each row",
-                              100.0 * scatter.small, 100.0 * scatter.large, scatter.widening));
-}
-
-/// One more reason where a single row moves an estimate, and noise would not have left it where it is.
-void doubt_stray_row(const MeasuredPoints& points, const std::vector<MeasuredCurve>& specimens, const FitResult& result,
-                     FitFindings& found) {
-  constexpr double false_alarm = 1e-3, noticeable_shift = 0.3;
-  if (found.verdict == Verdict::failed || (!points.noise_is_known && result.rms < least_noise)) return;
-  const auto stray = stray_row(result, in_unit_of_residuals(points));
-  if (!stray || !(stray->probability < false_alarm && stray->shift > noticeable_shift)) return;
-  const MeasuredPoints::Point& at = points.points[stray->row];
-  question(found,
-           fmt::format("the row of {} with {} at {} lies {:.2g} standard deviations off the curve and off the rows "
-                       "beside it, and moves an estimate by {:.2g} standard errors; leave it out if it is an "
-                       "error of the record",
-                       specimens[at.specimen].curve.name, quantity_text(at.y, "N", 4), quantity_text(at.x, "m", 4),
-                       stray->distance, stray->shift));
+std::vector<FittedRecord> records_of(const MeasuredPoints& points, const std::vector<MeasuredCurve>& specimens,
+                                     const FitResult& result) {
+  std::vector<FittedRecord> records;
+  std::size_t specimen = 0;
+  for (std::size_t i = 0; i < points.points.size(); ++i) {
+    const MeasuredPoints::Point& at = points.points[i];
+    if (records.empty() || at.specimen != specimen)
+      records.push_back({.row = [&points, first = i, name = specimens[at.specimen].curve.name](std::size_t row) {
+        const MeasuredPoints::Point& there = points.points[first + row];
+        return fmt::format("the row of {} with {} at {}", name, quantity_text(there.y, "N", 4),
+                           quantity_text(there.x, "m", 4));
+      }});
+    specimen = at.specimen;
+    const double measured = at.y / points.scale(at);
+    records.back().measured.push_back(measured);
+    records.back().size.push_back(std::abs(measured + result.residuals[i]));
+  }
+  return records;
 }
 
 }  // namespace
@@ -71,9 +56,11 @@ void CurveFit::doubt(const DoneStage& done, bool model_error, FitFindings& found
     for (const std::string& origin : origins) question(found, origin);
   doubt_events(done, fitted, found);
   doubt_fields(done, found);
-  doubt_stray_row(done.points, job_.specimens, done.result, found);
-  doubt_scatter(done.points, done.result, found);
   suspect_preload(found);
+  const std::vector<FittedRecord> records = records_of(done.points, job_.specimens, done.result);
+  doubt_stray_row(done.result, records, least_noise, found);
+  widen_for_uneven_scatter(done.result, records, least_noise,
+                           "the deviation of each row, stated, makes the estimates exacter", found);
 }
 
 void CurveFit::try_compliance(const DoneStage& done, std::size_t k, FitFindings& found) const {
@@ -176,7 +163,7 @@ void CurveFit::add_profiles(const DoneStage& done, FitFindings& found) const {
     const CaseParameter& parameter = parameters_[done.stage.parameters[k]];
     if (&done.stage != &*last_stage_of(done.stage.parameters[k])) continue;
     const ProfileSettings how{
-        .due = reach_of_interval(found, k), .trying = [&](std::size_t, double value) {
+        .due = reach_of_interval(found.parameters[k]), .trying = [&](std::size_t, double value) {
           session_.log.say(fmt::format("  profile: {} = {}", parameter.short_name(), parameter.shown(value)));
         }};
     const ProfileInterval interval = profile_interval(done.problem, done.settings, done.result, k, how);
