@@ -120,6 +120,8 @@ void require_history(const FractureModel& m, const Material& law, const LoadingS
                     law.name()));
 }
 
+constexpr double rounding = 1e-12;  // of a modulus
+
 // Refuses a damageable material that relaxes with models that need one elasticity: energies drive the damage, one
 // modulus makes no strength, and the part that a split keeps in closed cracks is elastic.
 void require_relaxing(const FractureModel& m, const RegionModel& region) {
@@ -135,7 +137,8 @@ void require_relaxing(const FractureModel& m, const RegionModel& region) {
   if (m.degradation_of(region).law().needs_strength)
     refuse(
         fmt::format("the degradation \"{}\", whose strength is that of one modulus", m.degradation_of(region).name()));
-  if (relaxed.bulk_modulus() != region.elasticity.bulk_modulus() &&
+  const double K = region.elasticity.bulk_modulus();
+  if (std::abs(relaxed.bulk_modulus() - K) > rounding * K &&
       split.secant(region.elasticity, 0.5, 1.0) != split.secant(region.elasticity, 0.5, 0.0))
     refuse(
         fmt::format("bulk_branches and the energy split \"{}\", which keeps the bulk modulus of closed cracks; leave "

@@ -21,10 +21,8 @@ class SecantLaw final : public CellLaw {
     return stiffness_matrix(secant(g, closure));
   }
   Tensor degradable_stress(const Tensor&) const override { return Tensor::Zero(); }
-  // The secant moduli are linear in g.
   IsotropicElasticity degradable_part(double closure) const override {
-    const IsotropicElasticity whole = secant(1.0, closure), kept = secant(0.0, closure);
-    return {.lambda = whole.lambda - kept.lambda, .mu = whole.mu - kept.mu};
+    return degradable_part_of(split_, elasticity_, closure);
   }
   double driving_energy(const Tensor& strain) const override { return split_.energy(elasticity_, strain).psi_plus; }
 
@@ -79,6 +77,13 @@ IsotropicElasticity CellLaw::secant(double, double) const {
 }
 
 double CellLaw::closure(const Tensor&) const { throw std::logic_error("closure of a law without secant moduli"); }
+
+IsotropicElasticity degradable_part_of(const EnergySplit& split, const IsotropicElasticity& elasticity,
+                                       double closure) {
+  const IsotropicElasticity whole = split.secant(elasticity, 1.0, closure),
+                            kept = split.secant(elasticity, 0.0, closure);
+  return {.lambda = whole.lambda - kept.lambda, .mu = whole.mu - kept.mu};
+}
 
 std::unique_ptr<const CellLaw> make_cell_law(const FractureModel& model, const RegionModel& region) {
   const EnergySplit& split = model.split_of(region);

@@ -29,6 +29,9 @@ class CellLaw {
   virtual double driving_energy(const Tensor& strain) const = 0;
 };
 
+/// CellLaw::degradable_part() of a split with secant moduli, which are linear in g.
+IsotropicElasticity degradable_part_of(const EnergySplit& split, const IsotropicElasticity& elasticity, double closure);
+
 std::unique_ptr<const CellLaw> make_cell_law(const FractureModel& model, const RegionModel& region);
 
 }  // namespace pfdm

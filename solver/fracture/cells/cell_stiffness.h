@@ -59,8 +59,9 @@ class CellStiffness {
   virtual bool has_histories() const = 0;
   /// Gives the momentum balance the stiffness that belongs to the damage, closure and tangent strain of the state.
   void set(const FractureState& state, MomentumSolver& momentum) const;
-  /// The part of the stiffness that damage degrades, by cell; zero where it is not given by isotropic moduli, and where
-  /// nothing is degraded.
+  /// The part of the stiffness whose energy the driving ones need (CellMechanics::part_energy), by cell: that which
+  /// damage degrades; of cells with a history that which it keeps, or of relaxed moduli that which it degrades. Zero
+  /// where it is not given by isotropic moduli, and where nothing is degraded.
   virtual CellField<IsotropicElasticity> degradable_part(const FractureState& state) const;
   /// Has the closure of the state follow the stress and the strain. Returns the energy error [J] of the stiffness that
   /// was used.

@@ -117,9 +117,21 @@ MaterialEnergy MaterialCells::energy(Index cell, const CellHistories& histories)
   MaterialEnergy energy = material_[cell]->energy(histories.gradient(cell), law_numbers(cell, histories),
                                                   model_.split_of(model_.in_cell(mesh_, cell)));
   if (!memory_[cell]) return energy;
-  energy.locked += GapMemory::locked(gap_numbers(cell, histories));
-  energy.dissipated += GapMemory::dissipated(gap_numbers(cell, histories));
+  const std::span<const double> gaps = gap_numbers(cell, histories);
+  (all_drives(cell) ? energy.driving : energy.idle) += memory_[cell]->in_branches(gaps);
+  energy.locked += GapMemory::locked(gaps);
+  energy.dissipated += GapMemory::dissipated(gaps);
   return energy;
+}
+
+bool MaterialCells::all_drives(Index cell) const {
+  const PronyLaw* relaxing = material_[cell]->relaxing();
+  return relaxing == nullptr || relaxing->drive == PronyDrive::stored;
+}
+
+double MaterialCells::relaxed_energy(Index cell, const CellHistories& histories) const {
+  const EnergySplit& split = model_.split_of(model_.in_cell(mesh_, cell));
+  return split.energy(material_[cell]->relaxed_elasticity(), symmetric_part(histories.gradient(cell))).psi_plus;
 }
 
 CellHistories MaterialCells::virgin_histories() const {

@@ -43,8 +43,16 @@ class MaterialCells {
   IsotropicElasticity beyond_elasticity(Index cell) const;
   /// Memory of the cells of relaxing materials, with room for the stress of every cell.
   HistoryStress history_stress(const CellHistories& histories) const;
-  /// Energies of the undamaged material, with those of the gaps at its faces.
+  /// Energies of the undamaged material, with those of the gaps at its faces. What relaxed moduli bear at gaps is not
+  /// in them: it is in CellMechanics::part_energy of these moduli.
   MaterialEnergy energy(Index cell, const CellHistories& histories) const;
+  /// Elasticity once all has relaxed in time; of other materials that which they have.
+  IsotropicElasticity relaxed_elasticity(Index cell) const { return material_[cell]->relaxed_elasticity(); }
+  /// Whether all that a cell stores drives its damage, but for what its energy split keeps; else what relaxed moduli
+  /// store (PronyDrive).
+  bool all_drives(Index cell) const;
+  /// What of the driving energy relaxed moduli make at the mean strain [J/m^3].
+  double relaxed_energy(Index cell, const CellHistories& histories) const;
   CellHistories virgin_histories() const;
   std::vector<OutputHistory> output(const CellHistories& histories) const;
 

@@ -42,7 +42,11 @@ void SmallStiffness::give(const FractureState& state, const CellField<double>& g
 }
 
 bool SmallStiffness::has_degradable_part(Index cell) const {
-  return is_damageable(cell) && !materials_.has(cell) && model_.split_of(model_.in_cell(mesh_, cell)).is_variational();
+  return is_damageable(cell) && !materials_.has(cell) && is_variational(cell);
+}
+
+bool SmallStiffness::drives_by_faces(Index cell) const {
+  return is_damageable(cell) && materials_.has(cell) && law(cell).has_secant() && is_variational(cell);
 }
 
 bool SmallStiffness::depends_on_strain() const {
@@ -55,6 +59,10 @@ CellField<IsotropicElasticity> SmallStiffness::degradable_part(const FractureSta
   CellField<IsotropicElasticity> part(mesh_.n_cells(), {});
   parallel_for(mesh_.n_cells(), [&](Index c) {
     if (has_degradable_part(c)) part[c] = law(c).degradable_part(state.closure[c]);
+    if (!drives_by_faces(c)) return;
+    part[c] = materials_.all_drives(c) ? law(c).secant(0.0, state.closure[c])
+                                       : degradable_part_of(model_.split_of(model_.in_cell(mesh_, c)),
+                                                            materials_.relaxed_elasticity(c), state.closure[c]);
   });
   return part;
 }
@@ -108,8 +116,8 @@ CellEnergies SmallStiffness::energies(const CellMechanics& mechanics, const Frac
       return;
     }
     const MaterialEnergy material = materials_.energy(c, state.histories);
-    energies.driving[c] = material.driving;
-    energies.stored[c] = stored_energy(c, mechanics, material, state.damage[c]);
+    energies.driving[c] = driving_energy(c, mechanics, material, state);
+    energies.stored[c] = stored_energy(c, mechanics, material, factor(c, seen(c, state)));
     energies.idle[c] = material.idle;
   });
   return energies;
@@ -121,20 +129,33 @@ double SmallStiffness::driving_energy(Index cell, const CellMechanics& mechanics
 }
 
 double SmallStiffness::driving_energy(Index cell, const CellMechanics& mechanics, const FractureState& state) const {
-  return materials_.has(cell) ? materials_.energy(cell, state.histories).driving : driving_energy(cell, mechanics);
+  if (!materials_.has(cell)) return driving_energy(cell, mechanics);
+  return driving_energy(cell, mechanics, materials_.energy(cell, state.histories), state);
+}
+
+// All that a cell stores may drive, over what damage leaves of it, but for what the split keeps. Otherwise relaxed
+// moduli do, and what else drives at the mean strain.
+double SmallStiffness::driving_energy(Index cell, const CellMechanics& mechanics, const MaterialEnergy& material,
+                                      const FractureState& state) const {
+  if (!drives_by_faces(cell)) return material.driving;
+  const double g = factor(cell, seen(cell, state));
+  const double of_part = mechanics.part_energy[cell];
+  if (!materials_.all_drives(cell))
+    return material.driving - materials_.relaxed_energy(cell, state.histories) + of_part;
+  if (!(g > 0.0)) return material.driving;
+  return std::max(stored_energy(cell, mechanics, material, g) / mesh_.cell_volume[cell] - of_part, 0.0) / g;
 }
 
 double SmallStiffness::stored_energy(Index cell, const CellMechanics& mechanics, const FractureState& state) const {
   if (!materials_.has(cell)) return mechanics.energy[cell];
-  return stored_energy(cell, mechanics, materials_.energy(cell, state.histories), state.damage[cell]);
+  return stored_energy(cell, mechanics, materials_.energy(cell, state.histories), factor(cell, seen(cell, state)));
 }
 
 // Half the work on the elastic strain, and what is locked up.
 double SmallStiffness::stored_energy(Index cell, const CellMechanics& mechanics, const MaterialEnergy& material,
-                                     double d) const {
+                                     double g) const {
   const double on_inelastic = 0.5 * contract(mechanics.stress[cell], material.inelastic);
-  const double locked = factor(cell, d) * material.locked;
-  return mechanics.energy[cell] + mesh_.cell_volume[cell] * (locked - on_inelastic);
+  return mechanics.energy[cell] + mesh_.cell_volume[cell] * (g * material.locked - on_inelastic);
 }
 
 Tensor SmallStiffness::undamaged_stress(Index cell, const CellMechanics& mechanics, const FractureState&) const {

@@ -51,9 +51,14 @@ class SmallStiffness final : public CellStiffness {
   HistoryStress with_histories(const FractureState& state, const CellField<double>& g,
                                CellField<IsotropicElasticity>& moduli) const;
   double driving_energy(Index cell, const CellMechanics& mechanics) const;  // without a history
-  double stored_energy(Index cell, const CellMechanics& mechanics, const MaterialEnergy& material, double d) const;
+  double driving_energy(Index cell, const CellMechanics& mechanics, const MaterialEnergy& material,
+                        const FractureState& state) const;
+  double stored_energy(Index cell, const CellMechanics& mechanics, const MaterialEnergy& material, double g) const;
   // Whether the driving energy is that of a part of the stiffness (CellMechanics::part_energy).
   bool has_degradable_part(Index cell) const;
+  // Whether the driving energy of a cell with a history is, too, or is all that it stores.
+  bool drives_by_faces(Index cell) const;
+  bool is_variational(Index cell) const { return model_.split_of(model_.in_cell(mesh_, cell)).is_variational(); }
   bool descends(Index cell) const override { return has_degradable_part(cell); }
   Tensor closing_strain(Index cell, const CellMechanics& mechanics, double g, double closure) const;
   double follow_with_closure(Index cell, const CellMechanics& mechanics, FractureState& state);

@@ -41,6 +41,8 @@ class GapMemory {
   /// Heat of the gaps since the virgin state, and their stored energy less half of the work of their traction [J/m^3].
   static double dissipated(std::span<const double> numbers) { return numbers[0]; }
   static double locked(std::span<const double> numbers) { return numbers[1]; }
+  /// What springs of branches store at gaps [J/m^3].
+  virtual double in_branches(std::span<const double>) const { return 0.0; }
 };
 
 /// The kinds that these materials need; null: elastic. No cell is of two.

@@ -14,10 +14,10 @@ namespace {
 // Places among a cell's numbers; with a pressure the two volume changes, and what is left of both in each shear branch.
 // The faces follow, each with its gap and what is left of it in the shear branches, and with bulk branches that along
 // its normal and what is left of it in these.
-constexpr std::size_t heat = 0, locked_energy = 1, volumes_from = 2, branches_from = 4;
+constexpr std::size_t heat = 0, locked_energy = 1, branch_energy = 2, volumes_from = 3, branches_from = 5;
 
 struct Energy {
-  double locked = 0.0, heat = 0.0;  // [Pa]
+  double locked = 0.0, stored = 0.0, heat = 0.0;  // [Pa]
 };
 
 // Energies of a branch whose spring had r_n and has r while the gap went from z_n to z.
@@ -26,7 +26,9 @@ Energy energy_of(const PronyBranch& branch, const PronyDecay& by, const Value& r
                  const Value& z, const Dot& dot) {
   const Value dz = z - z_n;
   const double gained = 2.0 * dot(dz, Value(by.phi * r_n + by.second * dz)) - dot(r, r) + dot(r_n, r_n);
-  return {.locked = 0.5 * branch.modulus * dot(r, Value(r - z)), .heat = 0.5 * branch.modulus * std::max(gained, 0.0)};
+  return {.locked = 0.5 * branch.modulus * dot(r, Value(r - z)),
+          .stored = 0.5 * branch.modulus * dot(r, r),
+          .heat = 0.5 * branch.modulus * std::max(gained, 0.0)};
 }
 
 Eigen::Map<const Vector> vector_at(std::span<const double> numbers, std::size_t at) {
@@ -148,6 +150,7 @@ void RelaxingGaps::advance(Index cell, const VolumeChanges& changes, const std::
   Energy sum;
   const auto add = [&](const Energy& of, double volume) {
     sum.locked += of.locked * volume;
+    sum.stored += of.stored * volume;
     sum.heat += of.heat * volume;
   };
   const auto faces = mesh_.faces_of_cell(cell);
@@ -176,6 +179,7 @@ void RelaxingGaps::advance(Index cell, const VolumeChanges& changes, const std::
     }
   }
   to[locked_energy] = sum.locked / mesh_.cell_volume[cell];
+  to[branch_energy] = sum.stored / mesh_.cell_volume[cell];
   to[heat] = from[heat] + sum.heat / mesh_.cell_volume[cell];
 }
 

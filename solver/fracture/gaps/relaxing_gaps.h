@@ -29,6 +29,7 @@ class RelaxingGaps : public GapMemory {
   std::size_t size(Index cell) const override;
   void start_step(double duration, const CellField<double>& shift) override;
   IsotropicElasticity elasticity(Index cell) const override { return moment(cell).elasticity; }
+  double in_branches(std::span<const double> numbers) const override { return numbers[2]; }
   void tell(Index cell, std::span<const double> numbers, HistoryStress& history) const override {
     tell(cell, numbers, At::end, history);
   }
@@ -52,7 +53,7 @@ class RelaxingGaps : public GapMemory {
     bool has_pressure = false;
     bool keeps_ratio = false;  // gaps have the Poisson's ratio at once
     // Energies; with a pressure also the two volume changes, and what is left of both in each shear branch.
-    std::size_t per_cell() const { return 2 + (has_pressure ? 2 + 2 * law->shear.size() : 0); }
+    std::size_t per_cell() const { return 3 + (has_pressure ? 2 + 2 * law->shear.size() : 0); }
     std::size_t bulk_from() const { return 3 + 3 * law->shear.size(); }  // among the numbers of a face
     std::size_t per_face() const { return bulk_from() + (law->bulk.empty() ? 0 : 1 + law->bulk.size()); }
   };

@@ -55,7 +55,7 @@ struct CellMechanics {
   ///   (1/2V) sum A (u_f - u_c).(part : eps_f) n,  eps_f = sym(G + (u_f - u_c - G d) n^T / h),
   ///
   /// eps_f being the strain from which a face's traction is computed; it varies between the faces of a cell. Never of
-  /// the other sign than the energy of `strain`. Empty if none is given, zero where the part has no shear modulus.
+  /// the other sign than the energy of `strain`. Empty if none is given, zero where the part has no moduli.
   CellField<double> part_energy{};
   /// Strain by least squares, as used in the tractions of the faces, with the volume change that belongs to the
   /// pressure in cells that have one [-]; empty unless some material is linearised.

@@ -177,7 +177,7 @@ double IsotropicTractions::stress_across(Index cell, const Tensor& strain, const
 
 double IsotropicTractions::energy_of_part(Index cell, const IsotropicElasticity& part, const Tensor& strain,
                                           const FaceMoves& moves) const {
-  if (!(part.mu > 0.0)) return 0.0;
+  if (!(part.mu > 0.0 || part.lambda > 0.0)) return 0.0;
   const IsotropicSweep& s = of(moves.sweep);
   const auto at = [&](std::size_t turn, const Vector& d, const Vector& n, const Vector& move) -> Tensor {
     const Tensor in_cell = varies_at(turn) ? gradient_at(cell, turn, s) : s.gradients[cell];

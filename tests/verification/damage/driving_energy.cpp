@@ -7,6 +7,8 @@
 
 #include "tests/verification/support.h"
 
+#include "physics/materials/j2_plasticity.h"
+#include "physics/materials/prony.h"
 #include "solver/fracture/equilibrium/law_newton.h"
 
 #include <gtest/gtest.h>
@@ -21,10 +23,10 @@ namespace {
 const IsotropicElasticity sylgard = from_young_poisson(75e6, 0.44);
 constexpr double residual_stiffness = 1e-6;
 
-FractureModel damageable_model(const Mesh& mesh, const char* split) {
+FractureModel damageable_model(const Mesh& mesh, const char* split, const IsotropicElasticity& elasticity) {
   const Tensor stretch = Vector(-0.002, -0.003, 0.01).asDiagonal();
   FractureModel model =
-      elastic_model(std::vector<IsotropicElasticity>(mesh.region_names.size(), sylgard),
+      elastic_model(std::vector<IsotropicElasticity>(mesh.region_names.size(), elasticity),
                     displacement_on_all(mesh, [=](const Vector& x) -> Vector { return stretch * x; }));
   for (RegionModel& region : model.regions) region.damageable = true;
   model.split = energy_split(split);
@@ -32,19 +34,22 @@ FractureModel damageable_model(const Mesh& mesh, const char* split) {
   return model;
 }
 
-// A body at given damage, whose closure has settled.
+// A body at given damage, whose closure has settled. A material with a history takes the place of the elastic one, and
+// is strained within `duration`.
 class Body {
  public:
-  Body(const Mesh& mesh, const char* split)
+  Body(const Mesh& mesh, const char* split, const IsotropicElasticity& elasticity = sylgard,
+       const std::shared_ptr<const Material>& material = nullptr, double duration = 0.0)
       : mesh_(mesh),
-        model_(damageable_model(mesh, split)),
-        unknowns_(place_unknowns(mesh, elastic_body(model_))),
+        model_(damageable_model(mesh, split, elasticity)),
+        unknowns_(place_unknowns(mesh, elastic_body(of(material)))),
         solver_(mesh, unknowns_),
         stiffness_(make_cell_stiffness(mesh, model_)) {
     state_.closure = CellField<double>(mesh.n_cells(), 0.0);
     state_.displacement.assign(unknowns_.n_unknowns(), Vector::Zero());
     state_.load = 1.0;
-    stiffness_->start_step(0.0);
+    state_.histories = virgin_ = stiffness_->virgin_histories();
+    stiffness_->start_step(duration);
   }
 
   /// Energy [J] in equilibrium; with `settles` the closure follows.
@@ -62,25 +67,39 @@ class Body {
                                            stiffness_->degradable_part(state_));
       energy = 0.0;
       for (const double e : cells_.energy) energy += e;
+      if (stiffness_->has_histories()) {
+        FractureState start = state_;
+        start.histories = virgin_;
+        stiffness_->integrate(cells_, start, state_);
+      }
       if (!settles || stiffness_->follow(cells_, state_) < 1e-9 * energy) break;
     }
     return energy;
   }
 
   double driving_energy(Index cell) const { return stiffness_->driving_energy(cell, cells_, state_); }
-  double energy_of_mean_strain(Index cell) const { return model_.split.energy(sylgard, cells_.strain[cell]).psi_plus; }
+  double energy_of_mean_strain(Index cell) const {
+    return model_.split.energy(model_.regions[0].elasticity, cells_.strain[cell]).psi_plus;
+  }
   double g(Index cell) const {
     const double sound = 1.0 - state_.damage[cell];
     return (1.0 - residual_stiffness) * sound * sound + residual_stiffness;
   }
 
  private:
+  const FractureModel& of(const std::shared_ptr<const Material>& material) {
+    for (RegionModel& region : model_.regions)
+      if (material) region.material = material, region.elasticity = material->elasticity();
+    return model_;
+  }
+
   const Mesh& mesh_;
   FractureModel model_;
   Unknowns unknowns_;
   MomentumSolver solver_;
   std::unique_ptr<CellStiffness> stiffness_;
   FractureState state_{};
+  CellHistories virgin_{};
   CellMechanics cells_{};
 };
 
@@ -167,6 +186,57 @@ TEST_P(Splits, DrivingEnergyOfAFrontsCellsIsTheDerivativeOfTheEnergy) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Front, Splits, ::testing::Values("none", "volumetric_deviatoric", "spectral"),
+                         [](const auto& which) { return std::string(which.param); });
+
+struct Alike {
+  const char* name;
+  std::shared_ptr<const Material> material;
+  double duration;  // [s]
+};
+
+const IsotropicElasticity binder = from_young_poisson(75e6, 0.3);  // whose cells have no pressure, relaxing or not
+
+// Materials that answer as the elastic one: a plastic one that does not yield; one that relaxes by next to nothing; one
+// whose branches have no time to relax, and store a part of what drives; one whose branches have long relaxed.
+std::vector<Alike> materials_alike() {
+  const double mu = binder.mu;
+  const IsotropicElasticity half{.lambda = binder.bulk_modulus() - mu / 3.0, .mu = 0.5 * mu};
+  return {
+      {"plastic", make_j2_plasticity(binder, {.yield_stress = 1e12}), 1.0},
+      {"branch of nothing", make_prony({.relaxed = binder, .shear = {{1e-9 * mu, 1.0}}}), 1.0},
+      {"fast", make_prony({.relaxed = half, .shear = {{0.5 * mu, 1e12}}, .drive = PronyDrive::stored}), 1.0},
+      {"slow", make_prony({.relaxed = binder, .shear = {{mu, 1e-9}}}), 1e3},
+  };
+}
+
+class Histories : public ::testing::TestWithParam<const char*> {};
+
+// By the energy of their mean strain beads in a matrix that relaxes debonded a quarter later than in the elastic one.
+TEST_P(Histories, OfMaterialsThatAnswerAsTheElasticOneDriveAsIt) {
+  const Mesh mesh = sphere_in_cube(8, 5, 3.0, 0.5);
+  const CellField<double> d = front(mesh, 1.2);
+  Body elastic(mesh, GetParam(), binder);
+  elastic.energy(d, true);
+  double largest = 0.0;
+  for (Index c = 0; c < mesh.n_cells(); ++c) largest = std::max(largest, elastic.driving_energy(c));
+  for (const Alike& alike : materials_alike()) {
+    Body body(mesh, GetParam(), binder, alike.material, alike.duration);
+    body.energy(d, true);
+    double worst = 0.0, of_mean_strain = 0.0;
+    for (Index c = 0; c < mesh.n_cells(); ++c) {
+      const double due = elastic.driving_energy(c);
+      if (due < 1e-3 * largest) continue;
+      worst = std::max(worst, std::abs(body.driving_energy(c) / due - 1.0));
+      of_mean_strain = std::max(of_mean_strain, std::abs(elastic.energy_of_mean_strain(c) / due - 1.0));
+    }
+    report_row(alike.name,
+               {{"driving energy less the elastic one, at worst", worst}, {"that of the mean strain", of_mean_strain}});
+    EXPECT_LT(worst, 1e-7) << alike.name;
+    EXPECT_GT(of_mean_strain, 0.1);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Front, Histories, ::testing::Values("none", "volumetric_deviatoric"),
                          [](const auto& which) { return std::string(which.param); });
 
 }  // namespace
