@@ -36,12 +36,12 @@ TEST(DebondedPoles, AreNamedByTheAxis) {
 // The upper cap creeps to 10 degrees and jumps to 80 in the step from 30 to 40 um.
 TEST(DebondedPoles, TellTheJumpOfTheLaterOne) {
   const TwoSurfaces folder(
-      "1,0,0,0,0,0,0,0\n1,1,0.2,10e-6,1,1e-8,0,60\n1,2,0.4,20e-6,1,1e-8,8,70\n1,3,0.6,30e-6,1,1e-8,10,75\n"
-      "1,4,0.8,40e-6,1,1e-7,80,88\n1,5,1,50e-6,1,1.9e-7,89,89\n",
+      "1,0,0,0,0,0,0,0\n1,1,0.2,10e-6,1,1e-8,0,60\n1,2,0.4,20e-6,2,1e-8,8,70\n1,3,0.6,30e-6,3,1e-8,10,75\n"
+      "1,4,0.8,40e-6,2.5,1e-7,80,88\n1,5,1,50e-6,3,1.9e-7,89,89\n",
       "1.9e-7");
   EXPECT_EQ(rest_of_debonding("b", up, microns, folder.path()),
-            "\"b\" debonds at its upper pole between 30 and 40 um, where the debonding angle goes from 10 to 80 "
-            "degrees; at the end 95 % of it has debonded");
+            "\"b\" debonds at its upper pole between 30 and 40 um, where the force goes from 3 to 2.5 N, and the "
+            "debonding angle from 10 to 80 degrees; at the end 95 % of it has debonded");
 }
 
 TEST(DebondedPoles, TellThatThereIsNoJump) {
@@ -53,9 +53,10 @@ TEST(DebondedPoles, TellThatThereIsNoJump) {
 }
 
 TEST(DebondedPoles, TellOfBothThatComeOffInOneStep) {
-  const TwoSurfaces folder("1,0,0,0,0,0,0,0\n1,1,0.2,10e-6,1,0,0,0\n1,2,0.4,20e-6,1,1e-8,30,40\n", "5e-8");
+  const TwoSurfaces folder("1,0,0,0,0,0,0,0\n1,1,0.2,10e-6,4,0,0,0\n1,2,0.4,20e-6,2,1e-8,30,40\n", "5e-8");
   EXPECT_EQ(rest_of_debonding("b", up, microns, folder.path()),
-            "\"b\" debonds at both poles in one step, between 10 and 20 um; at the end 25 % of it has debonded");
+            "\"b\" debonds at both poles in one step, between 10 and 20 um, where the force goes from 4 to 2 N; at the "
+            "end 25 % of it has debonded");
 }
 
 TEST(DebondedPoles, TellNothingOfASurfaceWithoutArea) {

@@ -15,9 +15,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A row of debonding.csv: displacement [m], polar angles of the debonded caps [degrees].
+/// A row of debonding.csv: displacement [m], force [N], polar angles of the debonded caps [degrees].
 struct Caps {
-  double displacement, plus, minus;
+  double displacement, force, plus, minus;
 };
 
 /// Of the surface of this number, in order of the steps.
@@ -25,9 +25,16 @@ std::vector<Caps> caps_of(const CsvTable& table, std::size_t surface) {
   std::vector<Caps> caps;
   for (std::size_t i = 0; i < table.n_rows(); ++i)
     if (table.column("surface")[i] == static_cast<double>(surface))
-      caps.push_back({table.column("displacement_m")[i], table.column("debonding_angle_plus_deg")[i],
-                      table.column("debonding_angle_minus_deg")[i]});
+      caps.push_back({table.column("displacement_m")[i], table.column("force_N")[i],
+                      table.column("debonding_angle_plus_deg")[i], table.column("debonding_angle_minus_deg")[i]});
   return caps;
+}
+
+/// "between 30 and 40 um, where the force goes from 3 to 2 N"
+std::string words_of_step(const Caps& before, const Caps& after, const CurveUnits& units) {
+  return fmt::format("between {}, where the force goes from {}",
+                     two_shown_in(units.displacement, before.displacement, "and", after.displacement),
+                     two_shown_in(units.force, before.force, "to", after.force));
 }
 
 /// Of the pole whose cap comes later, or of both where they come in the same step; empty where it never does.
@@ -41,8 +48,7 @@ std::string words_of_later_pole(const std::vector<Caps>& caps, const Vector& axi
   const auto begin = first(cap);
   if (begin == caps.end() || begin == caps.begin()) return {};
   if (first(&Caps::plus) == first(&Caps::minus))
-    return fmt::format("both poles in one step, between {}",
-                       two_shown_in(units.displacement, (begin - 1)->displacement, "and", begin->displacement));
+    return "both poles in one step, " + words_of_step(*(begin - 1), *begin, units);
   const std::string pole = name_of_pole(is_along, axis);
   auto largest = begin;
   for (auto at = begin; at != caps.end(); ++at)
@@ -50,9 +56,8 @@ std::string words_of_later_pole(const std::vector<Caps>& caps, const Vector& axi
   const double before = (*(largest - 1)).*cap, after = (*largest).*cap;
   if (after - before < jump)
     return fmt::format("its {} little by little from {} on", pole, shown_in(units.displacement, begin->displacement));
-  return fmt::format("its {} between {}, where the debonding angle goes from {:.0f} to {:.0f} degrees", pole,
-                     two_shown_in(units.displacement, (largest - 1)->displacement, "and", largest->displacement),
-                     before, after);
+  return fmt::format("its {} {}, and the debonding angle from {:.0f} to {:.0f} degrees", pole,
+                     words_of_step(*(largest - 1), *largest, units), before, after);
 }
 
 }  // namespace
