@@ -48,6 +48,7 @@ struct RegionKeys {
   ConfigValue where;
   ConfigTable table;  // of the material
   MaterialKeys keys;
+  std::optional<double> given_toughness{};  // before a correction; none where it varies [J/m^2]
 };
 
 // A history begins with the elasticity of its own table.
@@ -167,6 +168,7 @@ void correct_toughness(const Band& band, std::vector<RegionKeys>& regions, const
   remarks.push_back(describe(band, toughness, defaults.corrects_toughness));
   if (!defaults.corrects_toughness) return;
   keys.toughness->varies = toughness.varies();
+  if (!toughness.varies()) found->given_toughness = toughness.given.at(Vector::Zero());
   keys.toughness->at = [toughness](const Vector& x) { return toughness.corrected(x); };
 }
 
@@ -214,7 +216,8 @@ Materials read_materials(const ConfigTable& root, const MaterialDefaults& defaul
                                     fmt::ptr(entry.keys.material.get())),
          .material = entry.keys.material,
          .split = entry.keys.split.value_or(EnergySplit()),
-         .has_fatigue = entry.keys.fatigue && entry.keys.damageable.value_or(true)});
+         .has_fatigue = entry.keys.fatigue && entry.keys.damageable.value_or(true),
+         .given_toughness = entry.given_toughness});
   }
   return materials;
 }

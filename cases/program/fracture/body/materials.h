@@ -24,6 +24,7 @@ struct RegionMaterial {
   std::shared_ptr<const Material> material;        ///< null: linear elastic
   EnergySplit split;                               ///< of its own, if one is chosen
   bool has_fatigue = false;                        ///< whether its toughness falls by fatigue
+  std::optional<double> given_toughness{};         ///< of a band whose toughness was corrected, as given [J/m^2]
 };
 
 struct NamedElasticity {

@@ -99,16 +99,23 @@ Table figures_table(const FractureStory& story) {
 }
 
 Table material_table(const FractureCase& fracture) {
+  const auto& regions = fracture.materials.by_region;
+  const bool corrects = std::ranges::any_of(regions, [](const auto& m) { return m.given_toughness.has_value(); });
   Table table{.caption = "Materials", .rows = {{"region", "E", "nu", "Gc [J/m²]", "ell"}}, .has_header = true};
-  for (const RegionMaterial& material : fracture.materials.by_region) {
+  if (corrects) table.rows.front().insert(table.rows.front().end() - 1, "in its band");
+  for (const RegionMaterial& material : regions) {
+    std::vector<std::string> row;
     if (material.varies) {
-      table.rows.push_back({material.region, "varies", "from", "place", "to place"});
-      continue;
+      row = {material.region, "varies", "from", "place", "to place"};
+    } else {
+      const RegionModel m = material.at(Vector::Zero());
+      row = {material.region, shown(m.elasticity.young_modulus(), "Pa"), shown(m.elasticity.poisson_ratio()),
+             m.damageable ? shown(material.given_toughness.value_or(m.Gc)) : "no damage",
+             m.damageable ? shown(m.ell, "m") : "-"};
+      if (corrects) row.insert(row.end() - 1, material.given_toughness ? shown(m.Gc) : "-");
     }
-    const RegionModel m = material.at(Vector::Zero());
-    table.rows.push_back({material.region, shown(m.elasticity.young_modulus(), "Pa"),
-                          shown(m.elasticity.poisson_ratio()), m.damageable ? shown(m.Gc) : "no damage",
-                          m.damageable ? shown(m.ell, "m") : "-"});
+    row.resize(table.rows.front().size());
+    table.rows.push_back(std::move(row));
   }
   return table;
 }

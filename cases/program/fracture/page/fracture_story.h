@@ -28,7 +28,7 @@ struct FractureStory {
 Table run_table(const FractureStory& story);
 /// Peak, end, energies.
 Table figures_table(const FractureStory& story);
-/// Of all regions.
+/// Of all regions; of a band also the toughness that its cells have, so that a crack takes what was given.
 Table material_table(const FractureCase& fracture);
 
 }  // namespace pfdm
