@@ -156,7 +156,7 @@ void compare(const FractureProgram& program, Session& session) {
 
 CasePage page_of(const FractureProgram& program, const Session& session) {
   return {.report = fracture_page(program.fracture, program.experiment, program.name, program.hash, session.results),
-          .extras = fracture_extras(program.fracture, program.file, program.hash, session.results)};
+          .extras = fracture_extras(program.fracture, program.experiment, program.file, program.hash, session.results)};
 }
 
 /// The case that the program holds, once it is read; what needs [experiment] and [fit] is left out.

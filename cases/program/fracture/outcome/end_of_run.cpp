@@ -105,14 +105,34 @@ std::string critical_separation(const nlohmann::ordered_json& law) {
   return std::abs(separation) < nothing * reach ? "0" : shown_in({.si_unit = "m"}, separation);
 }
 
-std::string line_of_law(const nlohmann::ordered_json& surface) {
+/// What is not known of a law, with what stands before it; empty where it was followed down to a tenth.
+std::string unknown_of_law(const nlohmann::ordered_json& law) {
+  if (law.at("traced").get<bool>()) return {};
+  if (!law.at("jump_at_step").is_null())
+    return "; the traction falls within one step, so that how it softens is not known";
+  const double last = number_of(law.at("final_traction_Pa"));
+  if (last < 0.1 * number_of(law.at("strength_Pa")))
+    return "; the surface closes again, so that how it softens is not known";
+  return fmt::format("; {} act at the end, so that its last part is not known and the energy a lower bound",
+                     shown_in({.si_unit = "Pa"}, last));
+}
+
+/// " at the lower pole", " at polar angles of 75 to 90 degrees"; nothing of a plane, whose law is that of all places.
+std::string place_of_law(const nlohmann::ordered_json& surface, const nlohmann::ordered_json& law, const Vector& axis) {
+  if (surface.at("kind") != "interface") return {};
+  const double from = number_of(law.at("polar_angle_from_deg")), to = number_of(law.at("polar_angle_to_deg"));
+  if (from == 0.0 || to == 180.0) return " at the " + name_of_pole(from == 0.0, axis);
+  return fmt::format(" at polar angles of {:.0f} to {:.0f} degrees", from, to);
+}
+
+std::string line_of_law(const nlohmann::ordered_json& surface, const Vector& axis) {
   const nlohmann::ordered_json* strongest = strongest_law(surface);
   if (strongest == nullptr) return {};
   const auto number = [&](const char* key) { return number_of(strongest->at(key)); };
-  return fmt::format("law of \"{}\": largest normal traction {} at a separation of {}, surface energy {}{}",
-                     surface.at("name").get<std::string>(), shown_in({.si_unit = "Pa"}, number("strength_Pa")),
-                     critical_separation(*strongest), quantity_text(number("surface_energy_J_per_m2"), "J/m^2"),
-                     strongest->at("traced").get<bool>() ? "" : "; not seen down to zero traction");
+  return fmt::format("law of \"{}\"{}: largest normal traction {} at a separation of {}, surface energy {}{}",
+                     surface.at("name").get<std::string>(), place_of_law(surface, *strongest, axis),
+                     shown_in({.si_unit = "Pa"}, number("strength_Pa")), critical_separation(*strongest),
+                     quantity_text(number("surface_energy_J_per_m2"), "J/m^2"), unknown_of_law(*strongest));
 }
 
 /// What `of` says of each surface of cohesive.json; none if there is no such file.
@@ -129,23 +149,23 @@ std::vector<T> of_surfaces(const fs::path& results, const Of& of) {
 }
 
 /// Of the surfaces whose laws are extracted, not given.
-std::vector<std::string> lines_of_laws(const fs::path& results) {
-  return of_surfaces<std::string>(results, [](const nlohmann::ordered_json& surface) {
-    std::string line = line_of_law(surface);
+std::vector<std::string> lines_of_laws(const fs::path& results, const Vector& axis) {
+  return of_surfaces<std::string>(results, [&](const nlohmann::ordered_json& surface) {
+    std::string line = line_of_law(surface, axis);
     return line.empty() ? std::nullopt : std::optional(std::move(line));
   });
 }
 
-std::optional<HeadFigure> figure_of_law(const nlohmann::ordered_json& surface) {
+std::optional<HeadFigure> figure_of_law(const nlohmann::ordered_json& surface, const Vector& axis) {
   const nlohmann::ordered_json* law = strongest_law(surface);
   if (law == nullptr) return std::nullopt;
   const auto number = [&](const char* key) { return number_of(law->at(key)); };
   return HeadFigure{
       .label = fmt::format("Strength of \"{}\"", surface.at("name").get<std::string>()),
       .value = shown_in({.si_unit = "Pa"}, number("strength_Pa")),
-      .note = fmt::format("largest normal traction, at a separation of {}; surface energy {}{}",
-                          critical_separation(*law), quantity_text(number("surface_energy_J_per_m2"), "J/m^2"),
-                          law->at("traced").get<bool>() ? "" : ", not seen down to zero traction")};
+      .note = fmt::format("largest normal traction{}, at a separation of {}; surface energy {}{}",
+                          place_of_law(surface, *law, axis), critical_separation(*law),
+                          quantity_text(number("surface_energy_J_per_m2"), "J/m^2"), unknown_of_law(*law))};
 }
 
 /// "the lower pole", or "polar angles of 40 to 70 degrees".
@@ -207,7 +227,7 @@ std::vector<std::string> what_happened(const FractureCase& fracture, const CaseF
   for (std::string& line : lines_of_curve(summary, fracture, units)) lines.push_back(std::move(line));
   if (!has_debonded && summary.other_figures.contains("first_debonding_load"))
     lines.emplace_back("no debonding: every surface holds");
-  for (std::string& line : lines_of_laws(results)) lines.push_back(std::move(line));
+  for (std::string& line : lines_of_laws(results, fracture.cohesive.axis)) lines.push_back(std::move(line));
   return lines;
 }
 
@@ -259,7 +279,8 @@ std::vector<HeadFigure> run_figures(const FractureCase& fracture, const CurveUni
                  (peak.is_coarse() ? fmt::format(", with shorter steps up to {}", shown_in(axes.y_shown, peak.at_most))
                                    : "")});
   }
-  for (HeadFigure& law : of_surfaces<HeadFigure>(results, figure_of_law)) figures.push_back(std::move(law));
+  const auto of_law = [&](const auto& one) { return figure_of_law(one, fracture.cohesive.axis); };
+  for (HeadFigure& law : of_surfaces<HeadFigure>(results, of_law)) figures.push_back(std::move(law));
   figures.push_back(
       {.label = "Run",
        .value = summary.status,

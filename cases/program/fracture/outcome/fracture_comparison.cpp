@@ -14,16 +14,6 @@
 namespace pfdm {
 namespace {
 
-const ColumnRecord& record_of(const std::vector<ColumnRecord>& records, const MeasuredAngle& angle,
-                              const ConfigTable& where) {
-  if (angle.surface.empty()) return records.front();
-  const auto found = std::ranges::find(records, angle.surface, &ColumnRecord::name);
-  if (found == records.end())
-    throw where.error(fmt::format("there is no surface \"{}\" in the results; the first is \"{}\"", angle.surface,
-                                  records.front().name));
-  return *found;
-}
-
 AngleComparison compare_debonding(const ExperimentSettings& experiment, const std::vector<CurveRow>& rows,
                                   const std::vector<ColumnRecord>& records) {
   std::vector<SampledCurve> measured;
@@ -113,10 +103,20 @@ std::optional<std::size_t> first_debonding_in(const std::filesystem::path& resul
   return static_cast<std::size_t>(row - rows.begin());
 }
 
+const ColumnRecord& measured_surface(const ExperimentSettings& experiment, const std::vector<ColumnRecord>& records) {
+  const std::string& surface = experiment.angles.front().surface;
+  if (surface.empty()) return records.front();
+  const auto found = std::ranges::find(records, surface, &ColumnRecord::name);
+  if (found == records.end())
+    throw experiment.where.error(
+        fmt::format("there is no surface \"{}\" in the results; the first is \"{}\"", surface, records.front().name));
+  return *found;
+}
+
 SampledCurve computed_angle(const ExperimentSettings& experiment, const std::vector<CurveRow>& rows,
                             const std::vector<ColumnRecord>& records) {
   const MeasuredAngle& first = experiment.angles.front();
-  const std::vector<Debonding> history = debonding_of(record_of(records, first, experiment.where));
+  const std::vector<Debonding> history = debonding_of(measured_surface(experiment, records));
   SampledCurve model{.name = "computed", .x = {}, .y = {}};
   for (std::size_t i = 0; i < std::min(history.size(), rows.size()); ++i) {
     model.x.push_back(rows[i].displacement);

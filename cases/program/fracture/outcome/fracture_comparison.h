@@ -22,6 +22,9 @@ SampledCurve computed_curve(const std::vector<CurveRow>& rows, int component,
 std::optional<std::size_t> first_debonding_in(const std::filesystem::path& results, const std::vector<CurveRow>& rows,
                                               int component);
 
+/// The surface that the experiment's angles are of; it has one at least. Throws InputError for a surface that the
+/// record does not have.
+const ColumnRecord& measured_surface(const ExperimentSettings& experiment, const std::vector<ColumnRecord>& records);
 /// The debonding angle [rad] at the pole, and of the surface, that the experiment's angles are of; it has one at least.
 /// Throws InputError for a surface that the record does not have.
 SampledCurve computed_angle(const ExperimentSettings& experiment, const std::vector<CurveRow>& rows,

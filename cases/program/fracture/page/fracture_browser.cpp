@@ -3,9 +3,8 @@
 #include "cases/program/fracture/outcome/end_of_run.h"
 #include "cases/program/fracture/outcome/fracture_files.h"
 #include "cases/program/fracture/outcome/mean_curve.h"
-#include "physics/angle.h"
+#include "cases/program/fracture/page/debonding_charts.h"
 #include "postproc/browser/body.h"
-#include "postproc/cohesive/cohesive_law.h"
 
 #include <fmt/format.h>
 
@@ -35,41 +34,6 @@ std::vector<std::string> words_of_steps(const FractureCase& fracture, const Curv
     words.push_back(in_print(std::move(text)));
   }
   return words;
-}
-
-/// The areas as vectors nearly sum up to their sum.
-bool is_flat(const ColumnRecord& record) {
-  constexpr double flat_share = 0.999;
-  double whole = 0.0;
-  Vector sum = Vector::Zero();
-  for (const Place& place : record.places) {
-    whole += place.area;
-    sum += place.area * place.normal;
-  }
-  return record.kind == SurfaceKind::plane || sum.norm() > flat_share * whole;
-}
-
-/// How far each curved surface has debonded about its poles along the load and against it.
-std::vector<PageBlock> debonding_charts(const std::vector<CurveRow>& curve, const fs::path& results) {
-  std::vector<double> moved;
-  for (const CurveRow& row : curve) moved.push_back(row.displacement);
-  const DisplayUnit unit = common_unit({{moved}}, "m");
-  std::vector<PageBlock> charts;
-  for (const ColumnRecord& record : find_column_record(results)) {
-    const std::vector<Debonding> history = debonding_of(record);
-    if (is_flat(record) || history.size() != curve.size()) continue;
-    Series plus{.label = "pole along the load", .x = in_unit(moved, unit), .y = {}, .of_steps = true};
-    Series minus{.label = "pole against the load", .x = plus.x, .y = {}, .colour = 1};
-    for (const Debonding& d : history) {
-      plus.y.push_back(d.angle_plus / degree);
-      minus.y.push_back(d.angle_minus / degree);
-    }
-    charts.emplace_back(Chart{.caption = fmt::format("Debonding angle of \"{}\"", record.name),
-                              .x = {.title = fmt::format("displacement [{}]", unit.name)},
-                              .y = {.title = "angle of the debonded cap [°]", .from = 0.0},
-                              .series = {std::move(plus), std::move(minus)}});
-  }
-  return charts;
 }
 
 /// From 0 on, by what of the whole load and of the whole energy of cracks has come.
@@ -116,8 +80,8 @@ std::optional<Body> body_of(const FractureCase& fracture, const std::vector<Curv
 
 }  // namespace
 
-BrowserExtras fracture_extras(const FractureCase& fracture, const CaseFile& file, const std::string& hash,
-                              const fs::path& results) {
+BrowserExtras fracture_extras(const FractureCase& fracture, const std::optional<ExperimentSettings>& experiment,
+                              const CaseFile& file, const std::string& hash, const fs::path& results) {
   BrowserExtras extras{.hash = hash};
   if (!has_results(results)) return extras;
   const CurveUnits units = read_curve_units(file, fracture.output.curve);
@@ -129,7 +93,7 @@ BrowserExtras fracture_extras(const FractureCase& fracture, const CaseFile& file
     extras.figures = run_figures(fracture, units, *summary, results);
   }
   extras.steps = words_of_steps(fracture, units, curve, results);
-  if (!fracture.box) extras.more = debonding_charts(curve, results);
+  if (!fracture.box) extras.more = debonding_charts(fracture, experiment, curve, find_column_record(results));
   extras.body = body_of(fracture, curve, results);
   extras.beside = {std::string(fracture.box ? "Mean stress against mean strain" : "Force against displacement"),
                    "Figures"};

@@ -8,10 +8,9 @@
 #include "cases/program/fracture/page/fracture_side_by_side.h"
 #include "cases/program/fracture/page/fracture_story.h"
 #include "cases/program/fracture/page/heat_charts.h"
+#include "cases/program/fracture/page/law_chart.h"
 #include "cases/program/session/report_parts.h"
-#include "physics/angle.h"
-#include "physics/interfaces/traction_separation.h"
-#include "postproc/cohesive/cohesive_results.h"
+#include "postproc/cohesive/cohesive_law.h"
 
 #include <fmt/format.h>
 
@@ -121,81 +120,9 @@ Chart iterations_chart(const FractureStory& story) {
                       .of_steps = true}}};
 }
 
-/// Traction over separation; interrupted where the traction jumps down, since the law between is not known.
-Series law_series(const CohesiveResult& result, const DisplayUnit& x, const DisplayUnit& y) {
-  Series series{.label = {}, .x = {}, .y = {}, .style = SeriesStyle::line_with_points};
-  for (std::size_t i = 0; i < result.law.states.size(); ++i) {
-    const ColumnSample& state = result.law.states[i];
-    if (result.figures.jump && i == *result.figures.jump) {
-      series.x.push_back(std::nan(""));
-      series.y.push_back(std::nan(""));
-    }
-    series.x.push_back(x.factor * state.separation[0]);
-    series.y.push_back(y.factor * state.traction[0]);
-  }
-  return series;
-}
-
-/// The analytic law that is nearest.
-Series fitted_series(const CohesiveResult& result, const DisplayUnit& x, const DisplayUnit& y) {
-  const CohesiveFit& fit = result.fits.front();
-  const auto laws = traction_separation_laws();
-  const TractionSeparationLaw& law = *std::ranges::find(laws, fit.law, &TractionSeparationLaw::name);
-  std::vector<double> p;
-  for (const FitEstimate& estimate : fit.result.estimates) p.push_back(estimate.value);
-  Series series{.label = fmt::format("{}: {}, {:.4g} J/m²", fit.law, shown(p[0], "Pa"), p[1]),
-                .x = {},
-                .y = {},
-                .style = SeriesStyle::dashed,
-                .colour = 2};
-  constexpr int n = 200;
-  for (int i = 0; i <= n; ++i) {
-    const double separation = result.figures.final_separation * std::max(1e-6, static_cast<double>(i) / n);
-    series.x.push_back(x.factor * separation);
-    series.y.push_back(y.factor * law.traction(law, separation, p[0], p[1], std::span(p).subspan(2)));
-  }
-  return series;
-}
-
-std::string label_of(const CohesiveResult& result, SurfaceKind kind) {
-  if (kind == SurfaceKind::plane) return "mean of all places";
-  return fmt::format("{:.0f}°–{:.0f}°", result.law.from / degree, result.law.to / degree);
-}
-
 /// Whether the first surface has one.
 bool has_law(const std::vector<ColumnRecord>& records) {
   return !records.empty() && n_never_damaged(records.front()) < records.front().places.size();
-}
-
-/// Those of the first surface that carry much, by polar angle.
-Chart law_chart(const ColumnRecord& record) {
-  std::vector<CohesiveResult> results = evaluate(record);
-  const auto strength = [](const CohesiveResult& r) {
-    return std::isfinite(r.figures.strength) ? r.figures.strength : 0.0;
-  };
-  double largest = 0.0, widest = 0.0;
-  for (const CohesiveResult& r : results) {
-    largest = std::max(largest, strength(r));
-    for (const ColumnSample& state : r.law.states) widest = std::max(widest, state.separation[0]);
-  }
-  std::erase_if(results, [&](const CohesiveResult& r) { return strength(r) < 0.5 * largest; });
-  const DisplayUnit x = display_unit(widest, "m"), y = display_unit(largest, "Pa");
-  Chart chart{.caption = fmt::format("Cohesive law of \"{}\"", record.name),
-              .x = {.title = fmt::format("normal separation [{}]", x.name)},
-              .y = {.title = fmt::format("normal traction [{}]", y.name)},
-              .series = {}};
-  bool jumps = false;
-  for (const CohesiveResult& r : results) {
-    chart.series.push_back(law_series(r, x, y));
-    chart.series.back().label = label_of(r, record.kind);
-    chart.series.back().colour = static_cast<int>(chart.series.size()) - 1;
-    jumps = jumps || r.figures.jump;
-  }
-  if (results.size() == 1 && !results.front().fits.empty())
-    chart.series.push_back(fitted_series(results.front(), x, y));
-  chart.x.logarithmic = jumps;  // little is opened before a jump, much after it
-  if (jumps) chart.x.from = 1e-4 * x.factor * widest;
-  return chart;
 }
 
 /// Of the first surface: the law that was extracted, or the given one of an interface beside what its faces did.
@@ -203,7 +130,8 @@ Chart first_law_chart(const FractureStory& story) {
   const ColumnRecord& record = story.records.front();
   const auto& interfaces = story.fracture.interfaces;
   const auto given = std::ranges::find(interfaces, record.name, &InterfaceSettings::name);
-  return record.is_cohesive && given != interfaces.end() ? interface_chart(*given, record) : law_chart(record);
+  return record.is_cohesive && given != interfaces.end() ? interface_chart(*given, record)
+                                                         : law_chart(record, story.fracture.cohesive.axis);
 }
 
 /// Tables, pictures and charts of a run.
@@ -219,11 +147,13 @@ std::vector<PageRow> run_rows(const FractureStory& story, const std::filesystem:
   for (PageBlock& chart : heat_charts(results)) blocks.push_back(std::move(chart));
   blocks.emplace_back(iterations_chart(story));
   if (story.experiment)
-    for (PageBlock& chart : side_by_side_charts(*story.experiment, story.curve, story.records))
+    for (PageBlock& chart :
+         side_by_side_charts(*story.experiment, story.curve, story.records, story.fracture.cohesive.axis))
       blocks.push_back(std::move(chart));
   for (PageRow& row : in_pairs(std::move(blocks))) rows.push_back(std::move(row));
   if (!story.experiment) return rows;
-  if (auto table = side_by_side_table(*story.experiment, story.curve, story.component(), story.records))
+  if (auto table = side_by_side_table(*story.experiment, story.curve, story.component(), story.records,
+                                      story.fracture.cohesive.axis))
     rows.push_back({.blocks = {std::move(*table)}});
   return rows;
 }

@@ -1,6 +1,8 @@
 #include "cases/program/fracture/page/fracture_side_by_side.h"
 
+#include "cases/program/fracture/outcome/debonded_poles.h"
 #include "cases/program/fracture/outcome/fracture_comparison.h"
+#include "cases/program/fracture/page/debonding_charts.h"
 #include "cases/program/session/report_parts.h"
 #include "physics/angle.h"
 #include "postproc/curves/comparison_results.h"
@@ -11,21 +13,20 @@ namespace pfdm {
 namespace {
 
 struct Pair {
-  std::string caption, axis;  // of the chart
-  std::string si_unit;        // "degree" for angles, in which they are shown
+  std::string caption;  // of the chart, and of the table's row
+  std::string si_unit;  // "degree" for angles, in which they are shown
   SampledCurve computed;
   std::vector<SampledCurve> measured;
 };
 
 Chart chart_of(const Pair& pair) {
-  const bool is_angle = pair.si_unit == "degree";
   std::vector<std::vector<double>> all{pair.computed.y};
   for (const SampledCurve& curve : pair.measured) all.push_back(curve.y);
   const DisplayUnit x = common_unit({{pair.computed.x}}, "m");
-  const DisplayUnit y = is_angle ? DisplayUnit{.factor = 1.0 / degree, .name = "°"} : common_unit(all, pair.si_unit);
+  const DisplayUnit y = common_unit(all, pair.si_unit);
   Chart chart{.caption = pair.caption,
               .x = {.title = fmt::format("displacement [{}]", x.name)},
-              .y = {.title = fmt::format("{} [{}]", pair.axis, y.name)},
+              .y = {.title = fmt::format("energy [{}]", y.name)},
               .series = {}};
   int colour = 1;
   for (const SampledCurve& curve : pair.measured)
@@ -38,21 +39,24 @@ Chart chart_of(const Pair& pair) {
   return chart;
 }
 
-std::vector<Pair> pairs_of(const ExperimentSettings& experiment, const std::vector<CurveRow>& rows,
-                           const std::vector<ColumnRecord>& records) {
+bool has_angles(const ExperimentSettings& experiment, const std::vector<ColumnRecord>& records) {
+  return !experiment.angles.empty() && !records.empty();
+}
+
+Pair angle_pair(const ExperimentSettings& experiment, const std::vector<CurveRow>& rows,
+                const std::vector<ColumnRecord>& records, const Vector& axis) {
+  Pair angle{.caption = "Debonding angle, " + name_of_pole(experiment.angles.front().at_positive, axis),
+             .si_unit = "degree",
+             .computed = computed_angle(experiment, rows, records),
+             .measured = {}};
+  for (const MeasuredAngle& measured : experiment.angles) angle.measured.push_back(measured.curve);
+  return angle;
+}
+
+std::vector<Pair> energy_pairs(const ExperimentSettings& experiment, const std::vector<CurveRow>& rows) {
   std::vector<Pair> pairs;
-  if (!experiment.angles.empty() && !records.empty()) {
-    Pair angle{.caption = "Debonding angle",
-               .axis = "angle",
-               .si_unit = "degree",
-               .computed = computed_angle(experiment, rows, records),
-               .measured = {}};
-    for (const MeasuredAngle& measured : experiment.angles) angle.measured.push_back(measured.curve);
-    pairs.push_back(std::move(angle));
-  }
   for (const EnergyKind& kind : energy_kinds()) {
     Pair energy{.caption = fmt::format("Energy: {}", kind.description),
-                .axis = "energy",
                 .si_unit = "J",
                 .computed = computed_energy(rows, kind),
                 .measured = {}};
@@ -63,17 +67,23 @@ std::vector<Pair> pairs_of(const ExperimentSettings& experiment, const std::vect
   return pairs;
 }
 
+/// "synthetic", "mean of 3": the experiment's name of a curve may tell that it was measured, or by what computed.
+std::string source_of(const std::vector<SampledCurve>& curves) {
+  return curves.size() == 1 ? curves.front().name : fmt::format("mean of {}", curves.size());
+}
+
 Table table_of(const Pair& force, const std::vector<Pair>& pairs) {
   Table table{.caption = "Side by side",
-              .rows = {{"", "computed, at the end", "given", "rms difference", "largest difference", "at"}},
+              .rows = {{"", "computed, at the end", "of [experiment]", "rms difference", "largest difference", "at"}},
               .has_header = true};
   const auto add = [&](const Pair& pair) {
     const ComparedCurves c = compare_curves(pair.computed, pair.measured);
     const auto value = [&](double v) {
       return pair.si_unit == "degree" ? fmt::format("{:.1f}°", v / degree) : shown(v, pair.si_unit);
     };
-    table.rows.push_back({pair.caption, value(c.model.back()), value(c.measured.back()), value(c.rms), value(c.largest),
-                          shown(c.x_of_largest, "m")});
+    table.rows.push_back({pair.caption, value(c.model.back()),
+                          fmt::format("{} ({})", value(c.measured.back()), source_of(pair.measured)), value(c.rms),
+                          value(c.largest), shown(c.x_of_largest, "m")});
   };
   if (!force.measured.empty()) add(force);
   for (const Pair& pair : pairs) add(pair);
@@ -83,18 +93,20 @@ Table table_of(const Pair& force, const std::vector<Pair>& pairs) {
 }  // namespace
 
 std::vector<PageBlock> side_by_side_charts(const ExperimentSettings& experiment, const std::vector<CurveRow>& rows,
-                                           const std::vector<ColumnRecord>& records) {
+                                           const std::vector<ColumnRecord>& records, const Vector& axis) {
   std::vector<PageBlock> charts;
-  for (const Pair& pair : pairs_of(experiment, rows, records)) charts.emplace_back(chart_of(pair));
+  if (has_angles(experiment, records))
+    charts.emplace_back(debonding_chart(measured_surface(experiment, records), axis, rows, experiment.angles));
+  for (const Pair& pair : energy_pairs(experiment, rows)) charts.emplace_back(chart_of(pair));
   return charts;
 }
 
 std::optional<Table> side_by_side_table(const ExperimentSettings& experiment, const std::vector<CurveRow>& rows,
-                                        int component, const std::vector<ColumnRecord>& records) {
-  const std::vector<Pair> pairs = pairs_of(experiment, rows, records);
+                                        int component, const std::vector<ColumnRecord>& records, const Vector& axis) {
+  std::vector<Pair> pairs = energy_pairs(experiment, rows);
+  if (has_angles(experiment, records)) pairs.insert(pairs.begin(), angle_pair(experiment, rows, records, axis));
   if (pairs.empty()) return std::nullopt;
   const Pair force{.caption = "Force",
-                   .axis = "force",
                    .si_unit = "N",
                    .computed = computed_curve(rows, component),
                    .measured = specimen_curves(experiment)};

@@ -12,14 +12,14 @@
 
 namespace pfdm {
 
-/// A chart for the debonding angle and one for each kind of energy that the experiment names. Throws InputError for a
-/// surface that the record does not have.
+/// `axis`: of the load. A chart for the debonding angle and one for each kind of energy that the experiment names.
+/// Throws InputError for a surface that the record does not have.
 std::vector<PageBlock> side_by_side_charts(const ExperimentSettings& experiment, const std::vector<CurveRow>& rows,
-                                           const std::vector<ColumnRecord>& records);
+                                           const std::vector<ColumnRecord>& records, const Vector& axis);
 
 /// Their differences and the force's, `component` of it; nothing where the experiment names none of these. Throws
 /// InputError like pfdm compare.
 std::optional<Table> side_by_side_table(const ExperimentSettings& experiment, const std::vector<CurveRow>& rows,
-                                        int component, const std::vector<ColumnRecord>& records);
+                                        int component, const std::vector<ColumnRecord>& records, const Vector& axis);
 
 }  // namespace pfdm
