@@ -3,6 +3,7 @@
 #include "cases/program/input/case_files/case_override.h"
 #include "tests/cases/temporary_case.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -92,7 +93,49 @@ TEST(Overrides, ListsTakeThePlaceOfLists) {
             R"(["1 mm","free","free",])");
 }
 
+TEST(Overrides, TablesTakeThePlaceOfTables) {
+  EXPECT_EQ(with_value("a = { b = \"}\", c = [1, { d = 2 }] }  # last\n", "a", "{ e = 3 }"), "a = { e = 3 }  # last\n");
+  EXPECT_EQ(with_value("x = [{ y = 1 }, { y = 2 }]\n", "x[1]", "{ z = 3 }"), "x = [{ y = 1 }, { z = 3 }]\n");
+  EXPECT_EQ(value_with({"mesh.x[0]={ length = \"5 mm\", cells = 3 }"}, "mesh.x[0]"),
+            "{\"length\"=\"5 mm\",\"cells\"=3,}");
+  EXPECT_EQ(value_with({"loading={ end = 0.5 }"}, "loading"), "{\"end\"=0.5,}");
+  EXPECT_EQ(value_with({"loading={ end = 0.5 }", "loading={ end = 0.25 }"}, "loading"), "{\"end\"=0.25,}");
+}
+
+// Lines are those of the file; what is not in it has none.
+TEST(Overrides, KeepTheNumbersOfLines) {
+  const TemporaryCase directory(bar_case());
+  const auto refused_with = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> words{"check", directory.path().string()};
+    for (const std::string& word : more) words.insert(words.end(), {"--set", word});
+    const std::string message = run(words).err;
+    return message.substr(message.find("case.toml"));
+  };
+  const std::string text = bar_case();
+  const auto line_of = [&](const std::string& key) {
+    return fmt::format("case.toml with --set:{}: ",
+                       1 + std::count(text.begin(), text.begin() + static_cast<long>(text.find(key)), '\n'));
+  };
+  EXPECT_THAT(refused_with({"fracture.length=2 MPa"}), testing::StartsWith(line_of("length = \"4 mm\"")));
+  EXPECT_THAT(refused_with({"mesh.x[0]={ length = \"3 MPa\", cells = 3 }"}),
+              testing::StartsWith("case.toml with --set:"));
+  EXPECT_THAT(refused_with({"fracture.residual_stiffness=7", "fracture.length=2 MPa"}),
+              testing::StartsWith("case.toml with --set"));
+  EXPECT_THAT(refused_with({"fracture.residual_stiffness=1e-7", "fracture.length=2 MPa"}),
+              testing::StartsWith(line_of("length = \"4 mm\"")));
+  EXPECT_THAT(refused_with({"fracture.residual_stiffness=7"}),
+              testing::StartsWith("case.toml with --set: [fracture] residual_stiffness: "));
+  EXPECT_THAT(refused_with({"fracture.lenght=1 mm"}),
+              testing::StartsWith("case.toml with --set: [fracture] \"lenght\""));
+}
+
 TEST(Overrides, SayWhatIsWrong) {
+  expect_refused_word("materials.concrete.shear_branches[0].modulus=7 MPa",
+                      "the case has no materials.concrete.shear_branches; a list is given as a whole, as "
+                      "materials.concrete.shear_branches=[{ modulus = ... }]");
+  expect_refused_word("fracture.model=PF-CZM", "; did you mean \"Wu\"?");
+  expect_refused_word("materials.concrete.driven_by=equilibrium",
+                      "\"driven_by\" is not known here: it belongs to law = \"prony\", \"neo_hookean\", ");
   expect_refused_word("loading.end", "--set loading.end: expected KEY=VALUE, as in");
   expect_refused_word("=3", "expected KEY=VALUE");
   expect_refused_word("mesh.x[3].cells=3", "--set mesh.x[3].cells: ");

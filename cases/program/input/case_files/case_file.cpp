@@ -221,21 +221,25 @@ std::string moved(const CaseFile& file, const std::filesystem::path& folder) {
   return with_paths(file, [&](const std::string& name) { return seen_from(folder, file.directory / name); });
 }
 
-std::string with_table(const CaseFile& file, std::string_view table, const std::string& text,
-                       const std::filesystem::path& folder) {
-  std::istringstream lines(moved(file, folder));
+std::string with_table_replaced(const std::string& text, std::string_view table, const std::string& by) {
+  std::istringstream lines(text);
   std::string result;
   bool within = false, written = false;
   for (std::string line; std::getline(lines, line);) {
     if (const auto opened = opened_table(line))
       within = *opened == table || opened->starts_with(std::string(table) + ".");
     if (within && !written) {
-      result += text;
+      result += by;
       written = true;
     }
     if (!within) result += line + "\n";
   }
   return result;
+}
+
+std::string with_table(const CaseFile& file, std::string_view table, const std::string& text,
+                       const std::filesystem::path& folder) {
+  return with_table_replaced(moved(file, folder), table, text);
 }
 
 }  // namespace pfdm

@@ -73,6 +73,9 @@ std::string with_paths(const CaseFile& file, const std::function<std::string(con
 /// there.
 std::string moved(const CaseFile& file, const std::filesystem::path& folder);
 
+/// `text` with a table below its head [table], and all below it, replaced by `by`.
+std::string with_table_replaced(const std::string& text, std::string_view table, const std::string& by);
+
 /// case.toml with one of its tables, [table] and all below it, replaced by `text`, to stand in `folder`: the files that
 /// it names as `csv`, `file`, `fit`, `table` or `from` are named from there.
 std::string with_table(const CaseFile& file, std::string_view table, const std::string& text,

@@ -5,8 +5,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <numeric>
 #include <optional>
 #include <sstream>
+#include <utility>
+#include <vector>
 
 namespace pfdm {
 namespace {
@@ -77,6 +80,24 @@ std::optional<std::string> after_header(const std::string& text, const std::stri
   return found > header.before ? std::optional(result) : std::nullopt;
 }
 
+/// A key below elements that are not there: a list is given as a whole.
+InputError cannot_be_added(const TomlValue& root, const std::string& key) {
+  for (std::size_t bracket = key.find('['); bracket != std::string::npos; bracket = key.find('[', bracket + 1)) {
+    const std::string list = key.substr(0, bracket), below = key.substr(key.find_last_of('.') + 1);
+    const std::size_t end = key.find(']', bracket);
+    if (find_value(root, list) == nullptr)
+      return InputError(fmt::format("--set {}: the case has no {}; a list is given as a whole, as {}=[{}]", key, list,
+                                    list, key.ends_with(']') ? "..." : fmt::format("{{ {} = ... }}", below)));
+    try {
+      if (end != std::string::npos) value_at(root, key.substr(0, end + 1));
+    } catch (const InputError& error) {
+      return InputError(fmt::format("--set {}: {}", key, error.what()));
+    }
+  }
+  return InputError(fmt::format(
+      "--set {0}: the case has no such key, and it cannot be added from outside: write it into the file", key));
+}
+
 /// Where a table's further key may stand depends on how the file writes the table: the first way that TOML allows.
 std::string with_new_key(const std::string& text, const std::string& key, const std::string& piece) {
   const std::size_t dot = key.find_last_of('.');
@@ -98,8 +119,30 @@ std::string with_new_key(const std::string& text, const std::string& key, const 
     if (std::holds_alternative<TomlArray>(list->value))
       throw InputError(
           fmt::format("--set {0}: {1} is a list: name one of its elements, as {1}[0].{2}", key, table, name));
-  throw InputError(fmt::format(
-      "--set {0}: the case has no such key, and it cannot be added from outside: write it into the file", key));
+  throw cannot_be_added(parse_toml(text, "case.toml"), key);
+}
+
+/// Of each line of `changed` which one of `text` it is, whose lines have these numbers; 0 where it is none.
+std::vector<int> numbers_kept(const std::string& text, const std::string& changed, const std::vector<int>& numbers) {
+  const auto lines_of = [](const std::string& all) {
+    std::vector<std::string> lines;
+    std::istringstream stream(all);
+    for (std::string line; std::getline(stream, line);) lines.push_back(line);
+    return lines;
+  };
+  const std::vector<std::string> old = lines_of(text), now = lines_of(changed);
+  const std::size_t both = std::min(old.size(), now.size());
+  std::size_t before = 0, after = 0;
+  while (before < both && old[before] == now[before]) ++before;
+  while (after < both - before && old[old.size() - 1 - after] == now[now.size() - 1 - after]) ++after;
+  std::vector<int> kept(now.size(), 0);
+  for (std::size_t i = 0; i < now.size(); ++i) {
+    if (i >= now.size() - after)
+      kept[i] = numbers[i + old.size() - now.size()];
+    else if (i < old.size() - after)
+      kept[i] = numbers[i];
+  }
+  return kept;
 }
 
 std::string with_override(const std::string& text, const Override& given) {
@@ -115,15 +158,42 @@ std::string with_override(const std::string& text, const Override& given) {
   return with_new_key(text, given.key, piece);
 }
 
+/// Whether a table stands below its head, [table], not in braces. One that is made of longer heads alone has none.
+bool is_below_a_head(const std::string& text, const TomlValue& value) {
+  if (!std::holds_alternative<TomlTable>(value.value)) return false;
+  std::istringstream lines(text);
+  std::string line;
+  for (int i = 0; i < value.line; ++i) std::getline(lines, line);
+  const std::string_view head = trimmed(line);
+  return head.starts_with('[') && !head.starts_with("[[");
+}
+
+/// The text without a table below its head that a table in braces takes the place of.
+std::string without_replaced_table(const std::string& text, const Override& given) {
+  const TomlValue root = parse_toml(text, "case.toml");
+  const TomlValue* const old = find_value(root, given.key);
+  const bool is_replaced = old != nullptr && given.value.starts_with('{') && is_below_a_head(text, *old);
+  return is_replaced ? with_table_replaced(text, given.key, "") : text;
+}
+
 }  // namespace
 
 CaseFile with_overrides(const CaseFile& file, std::span<const std::string> words) {
   if (words.empty()) return file;
   std::string text = file.text;
-  for (const std::string& word : words) text = with_override(text, read_override(word));
+  std::vector<int> numbers(static_cast<std::size_t>(std::ranges::count(text, '\n')) + 1);
+  std::iota(numbers.begin(), numbers.end(), 1);
+  for (const std::string& word : words) {
+    const Override given = read_override(word);
+    for (const auto& changed_by : {without_replaced_table, with_override}) {
+      std::string next = changed_by(text, given);
+      numbers = numbers_kept(text, next, numbers);
+      text = std::move(next);
+    }
+  }
   const std::string shown = file.config.root().at("kind").file();
   CaseFile changed = file;
-  changed.config = Config(text, shown + " with --set");
+  changed.config = Config(text, shown + " with --set", BareNumbers::refused, std::move(numbers));
   changed.text = std::move(text);
   return changed;
 }

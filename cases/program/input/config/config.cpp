@@ -59,6 +59,7 @@ ConfigTable ConfigTable::with_keys(const KeyTable& rows, std::optional<std::stri
                                            : is_open ? std::nullopt
                                                      : decided_in(content(), rows);
   opened.rows.clear();
+  if (found && opened.allowed.empty()) source_->refuse_keys_of_others(opened, content(), rows, *found);
   std::vector<std::string_view> names;
   for (const Key& key : rows.keys) {
     if (found && !is_there_with(key, *found)) continue;
@@ -189,8 +190,9 @@ std::vector<ConfigTable> ConfigTable::tables(std::string_view key) const {
   return result;
 }
 
-Config::Config(const std::string& text, std::string shown_as, BareNumbers numbers)
+Config::Config(const std::string& text, std::string shown_as, BareNumbers numbers, std::vector<int> lines)
     : source_(std::make_shared<ConfigSource>()) {
+  source_->lines = std::move(lines);
   source_->numbers = numbers;
   source_->file = std::move(shown_as);
   source_->root = parse_toml(text, source_->file);

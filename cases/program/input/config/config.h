@@ -103,7 +103,9 @@ struct GivenKey {
 class Config {
  public:
   /// `text` is the file's content, `shown_as` its name in messages.
-  Config(const std::string& text, std::string shown_as, BareNumbers numbers = BareNumbers::refused);
+  /// `lines`: of each line of the text the number that messages give it, 0: none; empty: its own.
+  Config(const std::string& text, std::string shown_as, BareNumbers numbers = BareNumbers::refused,
+         std::vector<int> lines = {});
   ConfigTable root() const;
   void reject_unknown_keys() const;
   /// What those who read it have noted so far, with its places.

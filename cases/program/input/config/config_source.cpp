@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cctype>
 #include <numeric>
 #include <optional>
 #include <span>
@@ -25,6 +26,32 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
     }
   }
   return row.back();
+}
+
+/// Other names of what may be chosen, in small letters and digits.
+struct OtherName {
+  std::string_view words, value;
+};
+constexpr OtherName other_names[] = {{"pfczm", "Wu"},
+                                     {"czm", "Wu"},
+                                     {"cohesive", "Wu"},
+                                     {"amor", "volumetric_deviatoric"},
+                                     {"voldev", "volumetric_deviatoric"},
+                                     {"miehe", "spectral"},
+                                     {"notension", "no_tension"},
+                                     {"bourdin", "AT2"},
+                                     {"standard", "AT2"},
+                                     {"ambati", "hybrid"}};
+
+/// What stands among the candidates under another name.
+std::optional<std::string> known_as(std::string_view word, std::span<const std::string> candidates) {
+  std::string plain;
+  for (const char c : word)
+    if (std::isalnum(static_cast<unsigned char>(c)) != 0)
+      plain += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  for (const OtherName& other : other_names)
+    if (plain == other.words && std::ranges::count(candidates, other.value) > 0) return std::string(other.value);
+  return std::nullopt;
 }
 
 /// Whether nothing but tables may stand there, alone, in a list or under names.
@@ -68,7 +95,8 @@ std::optional<std::string> nearest(std::string_view word, std::span<const std::s
 }
 
 std::string did_you_mean(std::string_view word, std::span<const std::string> candidates) {
-  const auto near = nearest(word, candidates);
+  auto near = known_as(word, candidates);
+  if (!near) near = nearest(word, candidates);
   return near ? fmt::format("; did you mean \"{}\"?", *near) : "";
 }
 
@@ -91,7 +119,9 @@ std::string ConfigSource::subtable(const std::string& path, std::string_view key
 
 std::string ConfigSource::said_at(int line, const std::string& message) const {
   if (numbers == BareNumbers::in_si) return fmt::format("{}: {}", file, message);  // values of a script have no lines
-  return fmt::format("{}:{}: {}", file, line, message);
+  if (!lines.empty() && line > 0 && static_cast<std::size_t>(line) <= lines.size())
+    line = lines[static_cast<std::size_t>(line) - 1];
+  return line > 0 ? fmt::format("{}:{}: {}", file, line, message) : fmt::format("{}: {}", file, message);
 }
 
 InputError ConfigSource::error_at(int line, const std::string& message) const {
@@ -107,6 +137,27 @@ InputError ConfigSource::unknown_key(const Opened& table, const std::string& key
   const std::vector<std::string> known(table.known().begin(), table.known().end());
   return error_at(line, fmt::format("{}\"{}\" is not known here{}{}", table.place(), key, did_you_mean(key, known),
                                     list ? fmt::format(" (allowed: {})", fmt::join(known, ", ")) : ""));
+}
+
+void ConfigSource::refuse_keys_of_others(const Opened& table, const TomlTable& content, const KeyTable& rows,
+                                         std::string_view decided) const {
+  if (rows.decided_by.empty()) return;
+  for (const auto& [name, value] : content) {
+    std::string with;
+    bool is_there = table.asked_for.contains(name);
+    for (const Key& key : rows.keys) {
+      if (key.name != name) continue;
+      is_there = is_there || is_there_with(key, decided);
+      with += fmt::format("{}{}", with.empty() ? "" : " ", key.only);
+    }
+    if (is_there || with.empty()) continue;
+    for (std::size_t at = with.find(' '); at != std::string::npos; at = with.find(' ', at + 4))
+      with.replace(at, 1, "\", \"");
+    const bool says = std::ranges::count(content, rows.decided_by, &TomlEntry::key) > 0;
+    throw error_at(value.key_line, fmt::format("{}\"{}\" is not known here: it belongs to {} = \"{}\"{}", table.place(),
+                                               name, rows.decided_by, with,
+                                               says ? fmt::format(", not \"{}\"", decided) : ", which is not given"));
+  }
 }
 
 InputError ConfigSource::idle_key(const Opened& table, const std::string& key, int line) const {

@@ -16,6 +16,7 @@ namespace pfdm {
 struct ConfigSource {
   std::string file;
   BareNumbers numbers = BareNumbers::refused;
+  std::vector<int> lines{};  // that messages name in place of those of the text, from its first on; 0: none
   TomlValue root;
   struct Opened {
     std::string path;
@@ -41,6 +42,9 @@ struct ConfigSource {
   void remark_at(int line, const std::string& message);
   /// `list`: whether the keys that are known are all there are.
   InputError unknown_key(const Opened& table, const std::string& key, int line, bool list) const;
+  /// Throws InputError for a key of the table that is there only with other values of the key that decides.
+  void refuse_keys_of_others(const Opened& table, const TomlTable& content, const KeyTable& rows,
+                             std::string_view decided) const;
   /// Throws InputError for the first key that nobody asked for.
   void reject_unknown_keys() const { reject_unknown_in(root); }
   std::vector<GivenKey> given_keys() const;

@@ -122,14 +122,14 @@ std::size_t length_of_scalar(const std::string& text, std::size_t at) {
   return end_of_string(text, at) - at;
 }
 
-/// How long the list is whose bracket opens at `at`.
-std::size_t length_of_list(const std::string& text, std::size_t at) {
+/// How long the list or table is whose bracket or brace opens at `at`.
+std::size_t length_in_brackets(const std::string& text, std::size_t at) {
   int depth = 0;
   for (std::size_t i = at; i < text.size(); ++i) {
     if (text[i] == '"' || text[i] == '\'') i = end_of_string(text, i) - 1;
     if (text[i] == '#') i = std::min(text.find('\n', i), text.size() - 1);
-    if (text[i] == '[') ++depth;
-    if (text[i] == ']' && --depth == 0) return i + 1 - at;
+    if (text[i] == '[' || text[i] == '{') ++depth;
+    if ((text[i] == ']' || text[i] == '}') && --depth == 0) return i + 1 - at;
   }
   return text.size() - at;
 }
@@ -180,7 +180,9 @@ std::string with_value(const std::string& text, std::string_view path, const std
   const TomlValue& old = value_at(root, path);
   const std::size_t at = offset_of(text, old.line, old.column);
   const bool in_brackets = std::holds_alternative<TomlArray>(old.value) && is_in_brackets(text, at);
-  if (in_brackets && value.starts_with('[')) return std::string(text).replace(at, length_of_list(text, at), value);
+  const bool in_braces = std::holds_alternative<TomlTable>(old.value) && at < text.size() && text[at] == '{';
+  if ((in_brackets && value.starts_with('[')) || (in_braces && value.starts_with('{')))
+    return std::string(text).replace(at, length_in_brackets(text, at), value);
   if (std::holds_alternative<TomlArray>(old.value) || std::holds_alternative<TomlTable>(old.value))
     throw InputError(words_for_what_has_parts(old, path, in_brackets));
   return with_value(text, old, value);

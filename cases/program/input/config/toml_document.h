@@ -32,7 +32,7 @@ struct TomlEntry {
 const TomlValue& value_at(const TomlValue& root, std::string_view path);
 
 /// `text` with the text or number at `path` written anew as `value`, a piece of TOML; all else stays, comments too. A
-/// list in brackets takes the place of one.
+/// list in brackets takes the place of one, a table in braces that of one in braces.
 std::string with_value(const std::string& text, std::string_view path, const std::string& value);
 
 /// Likewise for a value that parse_toml() found in `text`.
