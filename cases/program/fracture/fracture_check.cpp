@@ -41,7 +41,11 @@ void check_fit(const FractureProgram& program, Log& log) {
       require_deviations(program.experiment->specimens);
       return true;
     });
-  require_start_within_bounds(program.fit->where, program.fit->parameters);
+  try {
+    require_start_within_bounds(program.fit->where, program.fit->parameters);
+  } catch (const InputError& error) {  // a run is not concerned
+    log.warn(fmt::format("{}; pfdm fit refuses this", error.what()));
+  }
   for (const CurveFitParameter& parameter : program.fit->parameters)
     log.say(fmt::format("fit of {} between {} and {}", parameter.in_case.name,
                         parameter.in_case.shown(parameter.in_fit.lower),
