@@ -11,6 +11,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <map>
 #include <optional>
 #include <set>
@@ -135,6 +136,33 @@ std::string copy_steps(const CaseFile& chain, const fs::path& directory) {
   return text;
 }
 
+/// A case to be copied, and what is to be said of its record.
+struct CaseToCopy {
+  CaseFile file;
+  std::string made, to_edit;  ///< words after the old name, and after "edit case.toml"
+};
+
+/// Without [experiment], whose record is of another body than the new case will be; a [fit] needs it.
+CaseToCopy to_copy(const fs::path& like) {
+  const CaseFile old = open_case(like);
+  if (knows_kind(old)) read_case(old);  // a copy of what is wrong helps nobody
+  const TomlValue root = parse_toml(old.text, "case.toml");
+  const auto has = [&](const char* table) {
+    return std::ranges::count(std::get<TomlTable>(root.value), table, &TomlEntry::key) > 0;
+  };
+  if (!has("experiment")) return {old, "", ""};
+  if (!has("fit")) {
+    const CaseFile without = with_text(old, with_table(old, "experiment", "", old.directory));
+    try {
+      if (knows_kind(without)) read_case(without);
+      return {without, ", without its [experiment]",
+              fmt::format(" (a record of your own goes into [experiment]: {} help experiment)", called_as())};
+    } catch (const InputError&) {  // something else needs it
+    }
+  }
+  return {old, "", fmt::format(", also [experiment], whose record is of {}", case_name(old))};
+}
+
 }  // namespace
 
 void require_empty(const fs::path& directory) {
@@ -148,22 +176,21 @@ void require_empty(const fs::path& directory) {
 
 void make_case(const fs::path& directory, const fs::path& like, std::ostream& out) {
   require_empty(directory);
-  const CaseFile old = open_case(like);
-  if (knows_kind(old)) read_case(old);  // a copy of what is wrong helps nobody
-  const std::string name = whole(directory).filename().string(), old_name = case_name(old);
+  const CaseToCopy copied = to_copy(like);
+  const CaseFile& old = copied.file;
+  const std::string old_name = case_name(old);
   DataCopies data;
   std::string text = old.config.root().string("kind") == "chain"
                          ? copy_steps(old, directory)
                          : with_paths(old, [&](const std::string& path) { return data.renamed(path, old.directory); });
-  text = with_value(text, "title",
-                    fmt::format("{}  # edit this title; begun as a copy of {}", quoted_toml(name), old_name));
+  text = with_value(text, "title", quoted_toml("begun as a copy of " + old_name) + "  # edit this title");
   make_folder(directory);
   data.copy_to(directory);
-  write_file(directory / "README.md", readme(name, old_name));
+  write_file(directory / "README.md", readme(whole(directory).filename().string(), old_name));
   write_file(directory / "case.toml", with_schema_from(text, old.directory, directory));
-  out << fmt::format("made {} like {}: case.toml, README.md", directory.string(), old_name);
+  out << fmt::format("made {} like {}{}: case.toml, README.md", directory.string(), old_name, copied.made);
   for (const auto& [from, place] : data.places) out << ", " << place.string();
-  out << fmt::format("\nedit case.toml, then: {} check {}\n", called_as(), directory.string());
+  out << fmt::format("\nedit case.toml{}, then: {} check {}\n", copied.to_edit, called_as(), directory.string());
 }
 
 }  // namespace pfdm
