@@ -277,7 +277,9 @@ std::optional<CommandLine> read_command_line(const std::vector<std::string>& arg
   if (line.command != "help" || line.man || line.schema || !line.reference.empty()) return line;
   line.key = fmt::format("{}", fmt::join(line.help_words, " "));
   if (line.key.empty()) return read_command_line({"--help"}, out);
-  if (is_command(line.key, app)) return read_command_line({line.key, "--help"}, out);
+  if (!is_command(line.key, app)) return line;
+  read_command_line({line.key, "--help"}, out);
+  line.told_command = line.key;
   return line;
 }
 

@@ -40,7 +40,8 @@ struct CommandLine {
   bool man = false;                       ///< of help: the manual page
   std::string reference;                  ///< of help: a folder for its pages
   std::vector<std::string> help_words{};
-  std::string key;  ///< of help: no command, so a key of case.toml, or words that keys tell of
+  std::string told_command;  ///< of help: the one whose help has been printed; a key may have its name
+  std::string key;           ///< of help: no command, so a key of case.toml, or words that keys tell of
 };
 
 /// Nothing if help or the version was asked for and written to `out`. Throws InputError that names what was meant.

@@ -9,7 +9,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <iterator>
+#include <system_error>
 #include <vector>
 
 namespace pfdm {
@@ -36,6 +38,17 @@ std::vector<Usage> usages_of(const std::string& asked) {
   return found;
 }
 
+/// Names of the guides that are about all words that are asked for.
+std::vector<std::string> guides_about(const std::string& asked, const std::filesystem::path& guides) {
+  std::vector<std::string> found;
+  std::error_code none;
+  for (const auto& entry : std::filesystem::directory_iterator(guides, none))
+    if (entry.path().extension() == ".md" && tells_of(entry.path().stem().string(), asked))
+      found.push_back(entry.path().filename().string());
+  std::ranges::sort(found);
+  return found;
+}
+
 InputError not_found(const std::string& asked, const std::vector<KindKeys>& kinds) {
   const std::vector<std::string> near = keys_like(asked, kinds);
   const bool knows_all = kinds.size() == std::size(all_kind_names);
@@ -49,10 +62,15 @@ InputError not_found(const std::string& asked, const std::vector<KindKeys>& kind
 
 }  // namespace
 
-void help_on(const std::string& asked, const std::vector<KindKeys>& kinds, std::ostream& out) {
+void help_on(const std::string& asked, std::vector<KindKeys> kinds, const std::filesystem::path& guides,
+             std::ostream& out) {
+  std::ranges::stable_partition(kinds, [](const KindKeys& kind) { return kind.kind == "fracture"; });
   const std::vector<Usage> usages = usages_of(asked);
   const auto keys = help_on_word(asked, kinds);
-  if (!keys && usages.empty()) throw not_found(asked, kinds);
+  const std::vector<std::string> about = guides_about(asked, guides);
+  if (!keys && usages.empty() && about.empty()) throw not_found(asked, kinds);
+  if (!about.empty()) out << fmt::format("guide: cases/guides/{}\n\n", fmt::join(about, ", cases/guides/"));
+  if (!keys && usages.empty()) return;
   if (!keys) {
     out << fmt::format("no key has the name \"{}\"; these commands tell of it:\n\n", asked);
     for (const Usage& usage : usages) out << usage.words << "\n  " << usage.meaning << "\n";
@@ -62,6 +80,12 @@ void help_on(const std::string& asked, const std::vector<KindKeys>& kinds, std::
   std::vector<std::string> calls;
   for (const Usage& usage : usages) calls.push_back(usage.words);
   if (!calls.empty()) out << fmt::format("\ncommands that tell of it: {}\n", fmt::join(calls, ", "));
+}
+
+void help_on_keys_beside(const std::string& command, const std::vector<KindKeys>& kinds, std::ostream& out) {
+  bool is_table = false;
+  for_each_key(kinds, [&](const PlacedKey& placed) { is_table = is_table || placed.path == command; });
+  if (is_table) out << fmt::format("\n[{0}] is also a table of case.toml: pfdm help {0}.\n", command);
 }
 
 }  // namespace pfdm

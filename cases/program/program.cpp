@@ -234,8 +234,10 @@ void do_command(const CommandLine& line, std::ostream& out, std::ostream& err, b
     out << manual_page(command_words(), PFDM_VERSION);
     return;
   }
+  if (!line.told_command.empty()) return help_on_keys_beside(line.told_command, keys_of_kinds(), out);
   if (line.command == "help")
-    return line.key.empty() ? write_schema(line, out) : help_on(line.key, keys_of_kinds(), out);
+    return line.key.empty() ? write_schema(line, out)
+                            : help_on(line.key, keys_of_kinds(), shipped_cases() / "guides", out);
   if (line.command == "completion") {
     out << completion_script(line.shell, command_words(), names_of_keys(keys_of_kinds()));
     return;

@@ -58,11 +58,18 @@ TEST(Commands, HelpIsThatOfTheOption) {
   for (const CommandWords& command : command_words()) {
     const Outcome help = run({"help", command.name}), option = run({command.name, "--help"});
     EXPECT_EQ(help.status, 0);
-    EXPECT_EQ(help.out, option.out);
+    EXPECT_THAT(help.out, testing::StartsWith(option.out));
     EXPECT_THAT(help.out, HasSubstr("Exit status: 0 done; 1 the computation failed; 2 the input is wrong"));
     EXPECT_THAT(help.out, HasSubstr(command.description));
     EXPECT_THAT(run({"help"}).out, HasSubstr(command.name));
   }
+}
+
+TEST(Commands, HelpNamesTablesThatAreCalledAsOne) {
+  EXPECT_THAT(run({"help", "mesh"}).out, testing::EndsWith("\n[mesh] is also a table of case.toml: pfdm help mesh.\n"));
+  EXPECT_EQ(run({"help", "run"}).out, run({"run", "--help"}).out);
+  EXPECT_THAT(run({"help", "mesh."}).out, HasSubstr("in         mesh (fracture)"));
+  EXPECT_THAT(run({"help", "finite strain"}).out, testing::StartsWith("guide: cases/guides/finite_strain.md\n"));
 }
 
 TEST(Commands, KnowAllKindsByName) {
@@ -137,7 +144,7 @@ TEST(Init, MakesACaseThatChecksLikeTheOld) {
     ASSERT_EQ(outcome.status, 0) << outcome.err;
     EXPECT_THAT(outcome.out, HasSubstr("then: pfdm check " + made.string()));
     EXPECT_THAT(content_of(made / "case.toml"),
-                HasSubstr("title = \"" + name + "\"  # edit this title; begun as a copy of " + name));
+                HasSubstr("title = \"begun as a copy of " + name + "\"  # edit this title"));
     EXPECT_THAT(content_of(made / "case.toml"), Not(HasSubstr("\"../")));
     EXPECT_THAT(content_of(made / "README.md"), HasSubstr("`" + name + "`"));
     EXPECT_FALSE(fs::exists(made / "results"));
@@ -152,6 +159,20 @@ TEST(Init, TakesDataFromBesideTheCase) {
   EXPECT_EQ(content_of(directory.path() / "new/data/winkler_series_A.csv"),
             content_of(shipped / "l_panel/data/winkler_series_A.csv"));
   EXPECT_EQ(run({"check", (directory.path() / "new").string()}).status, 0);
+}
+
+// The record of another body is no test of the new one; a fit cannot do without one.
+TEST(Init, LeavesTheRecordOutWhereNoFitNeedsIt) {
+  const TemporaryCase directory(bar_case());
+  const fs::path panel = directory.path() / "panel", bead = directory.path() / "bead";
+  const Outcome without = run({"init", panel.string(), "--like", "l_panel"});
+  EXPECT_THAT(without.out, HasSubstr("like l_panel, without its [experiment]: case.toml, README.md\n"));
+  EXPECT_THAT(without.out, HasSubstr("(a record of your own goes into [experiment]: pfdm help experiment)"));
+  EXPECT_THAT(content_of(panel / "case.toml"), Not(HasSubstr("experiment")));
+  EXPECT_EQ(run({"check", panel.string()}).status, 0);
+  EXPECT_THAT(run({"init", bead.string(), "--like", "glass_bead_quick"}).out,
+              HasSubstr("edit case.toml, also [experiment], whose record is of glass_bead_quick, then: "));
+  EXPECT_TRUE(fs::exists(bead / "data/synthetic_debonding.csv"));
 }
 
 TEST(Init, RefusesWhatIsThere) {
