@@ -49,6 +49,9 @@ def table_of(columns: Mapping[str, numpy.ndarray]) -> pandas.DataFrame:
 
 
 def _with_units(table: pandas.DataFrame) -> pandas.DataFrame:
+    from .named_columns import NamedColumns
+
+    table = NamedColumns(table)
     table.attrs["units"] = {str(name): unit_in(str(name)) for name in table.columns if unit_in(str(name))}
     return table
 

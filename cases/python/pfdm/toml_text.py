@@ -7,6 +7,8 @@ import re
 from collections.abc import Mapping, Sequence
 from typing import Any
 
+from .errors import no_such
+
 
 def _name(key: object) -> str:
     """A key as TOML writes it: in quotes where it has other than letters, digits, "_" and "-"."""
@@ -61,12 +63,14 @@ def parts_of(key: str) -> list[str | int]:
 
 
 def value_at(table: Any, key: str) -> Any:
-    """The value of a dotted key in nested tables and lists. Raises KeyError with the key where there is none."""
+    """The value of a dotted key in nested tables and lists. Raises KeyError with the key, and those like it, where there
+    is none."""
+    whole = table
     for part in parts_of(key):
         try:
             table = table[part]
         except (KeyError, IndexError, TypeError):
-            raise KeyError(key) from None
+            raise no_such(key, leaves_of(whole)) from None
     return table
 
 
