@@ -12,8 +12,17 @@
 
 namespace pfdm {
 
+int digits_of_interval(double lower, double upper, int least) {
+  constexpr int of_width = 3, most = 12;
+  const double width = std::abs(upper - lower), largest = std::max(std::abs(lower), std::abs(upper));
+  if (!(width > 0.0) || !std::isfinite(largest)) return least;
+  const int before = static_cast<int>(std::floor(std::log10(largest)) - std::floor(std::log10(width)));
+  return std::clamp(before + of_width, least, most);
+}
+
 std::string interval_text(double lower, double upper, double confidence, int digits) {
   if (!std::isfinite(lower) || !std::isfinite(upper)) return "no interval";
+  digits = digits_of_interval(lower, upper, digits);
   return fmt::format("{:g} % between {:.{}g} and {:.{}g}", 100.0 * confidence, lower, digits, upper, digits);
 }
 

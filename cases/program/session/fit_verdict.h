@@ -9,7 +9,11 @@
 
 namespace pfdm {
 
-/// "95 % between 1 and 2", or that there is no interval; values with `digits` significant digits.
+/// Significant digits that tell the ends of an interval apart: three of its width, and no less than `least`.
+int digits_of_interval(double lower, double upper, int least);
+
+/// "95 % between 1 and 2", or that there is no interval; values with `digits` significant digits, or as many more as
+/// its width takes.
 std::string interval_text(double lower, double upper, double confidence = 0.95, int digits = 6);
 
 /// The unit in which people write an estimate, of one in SI: with a prefix where its first symbol takes one, as in

@@ -24,7 +24,12 @@ std::string value_text(double value, const std::string& unit) {
 
 std::string between_text(double lower, double upper, const std::string& unit) {
   if (!std::isfinite(lower) || !std::isfinite(upper)) return "none";
-  return fmt::format("{} to {}", value_text(lower, unit), value_text(upper, unit));
+  const int digits = digits_of_interval(lower, upper, 4);
+  const DisplayUnit in = unit.find('/') == std::string::npos && !unit.empty() && unit != "1"
+                             ? display_unit(std::max(std::abs(lower), std::abs(upper)), unit)
+                             : DisplayUnit{.name = unit == "1" ? std::string() : unit};
+  return fmt::format("{:.{}g} to {:.{}g}{}{}", in.factor * lower, digits, in.factor * upper, digits,
+                     in.name.empty() ? "" : " ", in.name);
 }
 
 std::string profile_text(const FittedParameter& p) {
@@ -79,7 +84,7 @@ Chart curves_chart(const FitReport& fit, const ExperimentMisfit& experiment, con
       .caption = fmt::format("Fit to \"{}\", rms misfit {:.2g} %", experiment.name, 100.0 * experiment.relative),
       .x = {.title = fmt::format("displacement [{}]", x.name)},
       .y = {.title = fmt::format("force [{}]", y.name)},
-      .series = {{.label = "measured", .x = at, .y = in_unit(measured, y), .style = SeriesStyle::points, .colour = 7},
+      .series = {{.label = "measured", .x = at, .y = in_unit(measured, y), .style = SeriesStyle::points, .colour = 5},
                  {.label = "first guess", .x = at, .y = in_unit(first, y), .style = SeriesStyle::dashed, .colour = 1},
                  {.label = "fitted", .x = at, .y = in_unit(fitted, y), .colour = 0}}};
   mark_events(fit.events, x, y, chart);
