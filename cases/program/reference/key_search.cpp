@@ -131,12 +131,25 @@ std::string places_of(const std::vector<FoundKey>& found) {
   return fmt::format("{}{}", fmt::join(places, ", "), found.size() > most_lines ? " ..." : "");
 }
 
+/// Of a word that names no key of the first kind, the first few of its keys that tell of it; else nothing.
+std::string of_first_kind(const std::string& asked, const std::vector<KindKeys>& kinds) {
+  constexpr std::size_t few = 3;
+  const std::vector<KindKeys> first{kinds.front()};
+  std::vector<FoundKey> about = keys_about(asked, first, is_same);
+  if (help_on_key(asked, first) || about.empty()) return {};
+  about.resize(std::min(few, about.size()));
+  return fmt::format("keys of {} cases that tell of it:\n\n{}\nkeys with that name:\n\n", first.front().kind,
+                     text_of(about));
+}
+
 }  // namespace
 
 std::optional<std::string> help_on_word(const std::string& asked, const std::vector<KindKeys>& kinds) {
   std::vector<FoundKey> about = keys_about(asked, kinds, is_same);
   if (const auto text = help_on_key(asked, kinds))
-    return about.empty() ? *text : fmt::format("{}\nothers that tell of it: {}\n", *text, places_of(about));
+    return about.empty() ? *text
+                         : fmt::format("{}{}\nothers that tell of it: {}\n", of_first_kind(asked, kinds), *text,
+                                       places_of(about));
   if (about.empty()) about = keys_about(asked, kinds, begins_alike);
   if (about.empty()) about = keys_about_most(asked, kinds);
   if (about.empty()) return std::nullopt;

@@ -69,6 +69,9 @@ TEST(Commands, HelpNamesTablesThatAreCalledAsOne) {
   EXPECT_THAT(run({"help", "mesh"}).out, testing::EndsWith("\n[mesh] is also a table of case.toml: pfdm help mesh.\n"));
   EXPECT_EQ(run({"help", "run"}).out, run({"run", "--help"}).out);
   EXPECT_THAT(run({"help", "mesh."}).out, HasSubstr("in         mesh (fracture)"));
+  const std::string temperature = run({"help", "temperature"}).out;  // a key of plates alone has the name
+  EXPECT_THAT(temperature, testing::StartsWith("keys of fracture cases that tell of it:\n"));
+  EXPECT_LT(temperature.find("loads.temperature_change (fracture)"), temperature.find("cooling[].temperature (plate)"));
   EXPECT_THAT(run({"help", "finite strain"}).out, testing::StartsWith("guide: cases/guides/finite_strain.md\n"));
 }
 
