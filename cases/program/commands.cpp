@@ -277,15 +277,12 @@ std::optional<CommandLine> read_command_line(const std::vector<std::string>& arg
   if (line.command != "help" || line.man || line.schema || !line.reference.empty()) return line;
   line.key = fmt::format("{}", fmt::join(line.help_words, " "));
   if (line.key.empty()) return read_command_line({"--help"}, out);
-  if (!is_command(line.key, app)) return line;
-  read_command_line({line.key, "--help"}, out);
-  line.told_command = line.key;
+  if (is_command(line.key, app) && !read_command_line({line.key, "--help"}, out)) line.told_command = line.key;
   return line;
 }
 
 std::string unknown_command(const std::string& word) {
-  const Parser parser;
-  return fmt::format("unknown command \"{}\"{}", word, did_you_mean(word, names_of_commands(parser.app)));
+  return fmt::format("unknown command \"{}\"{}", word, did_you_mean(word, names_of_commands(Parser().app)));
 }
 
 std::vector<CommandWords> command_words() {

@@ -96,5 +96,14 @@ TEST(CurveFit, RefusesWhatCannotBeFitted) {
          "a prior requires the noise of the data to be known");
 }
 
+// A run is not concerned; a fit would refuse it.
+TEST(StartOfCurveFit, CheckWarnsOfAStartOutsideTheBounds) {
+  const TemporaryCase directory(replaced(bar_case() + bar_fit, "[\"10 GPa\", \"90 GPa\"]", "[\"40 GPa\", \"90 GPa\"]"));
+  directory.write("data.csv", "displacement_m,force_N\n0,0\n1e-5,1\n");
+  const Outcome outcome = run({"check", directory.path().string()});
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_NE(outcome.out.find("is outside these bounds; pfdm fit refuses this"), std::string::npos) << outcome.out;
+}
+
 }  // namespace
 }  // namespace pfdm::this_file
