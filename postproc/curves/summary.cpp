@@ -23,11 +23,13 @@ double balance_error(const CurveRow& start, const CurveRow& row) {
 }
 
 double initial_stiffness(std::span<const CurveRow> rows, int component) {
-  const CurveRow& start = rows.front();
-  const auto loaded =
-      std::ranges::find_if(rows, [&](const CurveRow& row) { return row.displacement != start.displacement; });
-  if (loaded == rows.end()) return Headlines::none;
-  return (loaded->force[component] - start.force[component]) / (loaded->displacement - start.displacement);
+  const double start = rows.front().displacement;
+  auto to = std::ranges::find_if(rows, [&](const CurveRow& row) { return row.displacement != start; });
+  if (to == rows.end()) return Headlines::none;
+  const bool begins_otherwise = to != rows.begin() + 1;  // the step may have a part of that
+  if (begins_otherwise && to + 1 != rows.end() && (to + 1)->displacement != to->displacement) ++to;
+  const auto from = to - 1;
+  return (to->force[component] - from->force[component]) / (to->displacement - from->displacement);
 }
 
 double largest_balance_error(std::span<const CurveRow> rows) {

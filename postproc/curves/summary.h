@@ -25,10 +25,11 @@ struct Headlines {
   /// The peak lies between the largest force and this one [N]: what the slope before it reaches in the step after it,
   /// if that step lost a tenth of the force or more; else the same.
   double peak_force_at_most = none;
-  double initial_stiffness = none;   ///< secant from the first row to the first other displacement [N/m]
-  double final_force = none;         ///< [N]
-  double final_displacement = none;  ///< [m]
-  double final_load = none;          ///< load parameter [-]
+  double initial_stiffness =
+      none;                   ///< slope of the first step that displaces, or of the next where others came before [N/m]
+  double final_force = none;  ///< [N]
+  double final_displacement = none;                    ///< [m]
+  double final_load = none;                            ///< load parameter [-]
   EnergyAccount energy{none, none, none, none, none};  ///< at the end [J]
   double max_damage = none;                            ///< at the end [-]
   double damaged_volume = none;                        ///< at the end [m^3]

@@ -75,6 +75,7 @@ struct FitFindings {
   std::optional<PosteriorFindings> posterior = std::nullopt;
   std::string sensitivity_file{};  ///< by how much each parameter moves each part of the curve; empty: none
   std::string finer{};             ///< the finer discretisation; empty: none was tried
+  bool is_discretised = false;     ///< the model has a mesh or steps that could be finer
 };
 FitFindings findings_of(const std::vector<FitParameter>& parameters, const FitResult& result);
 

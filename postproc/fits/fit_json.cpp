@@ -82,6 +82,7 @@ Json to_json(const FitFindings& found) {
                {"start_rms_residual", start_rms},
                {"path", to_json(found.path)}};
   if (!found.finer.empty()) json["finer"] = found.finer;
+  if (found.finer.empty() && found.is_discretised) json["finer"] = nullptr;
   if (!found.sensitivity_file.empty()) json["sensitivity_file"] = found.sensitivity_file;
   if (found.posterior) json["posterior"] = to_json(*found.posterior);
   if (found.first_rms) json["first_guess_rms_residual"] = *found.first_rms;
@@ -190,6 +191,11 @@ ExperimentMisfit experiment_in(const Json& e) {
   return misfit;
 }
 
+std::string finer_in(const Json& json) {
+  const auto found = json.find("finer");
+  return found == json.end() || found->is_null() ? std::string() : found->get<std::string>();
+}
+
 FitReport report_in(const Json& json) {
   FitReport report{.case_name = json.at("case"),
                    .case_hash = json.at("case_hash"),
@@ -203,7 +209,9 @@ FitReport report_in(const Json& json) {
                              .message = json.at("message"),
                              .parameters = parameters_in(json.at("parameters")),
                              .posterior = posterior_in(json),
-                             .sensitivity_file = json.value("sensitivity_file", "")},
+                             .sensitivity_file = json.value("sensitivity_file", ""),
+                             .finer = finer_in(json),
+                             .is_discretised = json.contains("finer")},
                    .experiments = {},
                    .events = json.contains("events") ? events_in(json.at("events")) : std::vector<FittedEvent>{},
                    .fields = json.contains("fields") ? fields_in(json.at("fields")) : std::vector<FittedField>{},

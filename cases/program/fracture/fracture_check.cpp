@@ -1,5 +1,6 @@
 #include "cases/program/fracture/fracture_check.h"
 
+#include "cases/program/fracture/case/idle_keys.h"
 #include "cases/program/fracture/fracture_reduction.h"
 #include "cases/program/fracture/outcome/fracture_results.h"
 #include "cases/program/fracture/run_estimate.h"
@@ -118,6 +119,7 @@ MeasuredFields fields_of_fit(const FractureProgram& program, const Mesh& mesh, L
 
 Mesh made_mesh(const FractureProgram& program, Log& log) {
   for (const std::string& remark : program.fracture.materials.remarks) log.say(remark);
+  for (const std::string& warning : idle_keys(program.fracture)) log.warn(warning);
   const Stopwatch watch;
   Mesh mesh = program.fracture.mesh.make();
   log.say(fmt::format("mesh: {} cells, {} points, {} faces, made in {:.1f} s", mesh.n_cells(), mesh.points.size(),

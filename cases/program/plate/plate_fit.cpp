@@ -228,6 +228,7 @@ void fit_plate(const PlateProgram& program, Session& session) {
   const PlateCurves fitted = model.curves(model.with(result.values())).value();
   const std::vector<ExperimentMisfit> experiments = misfits(fit, fitted);
   FitFindings found = findings_of(problem.parameters, result);
+  found.is_discretised = true;
   std::vector<FitSuspect> suspects;
   if (judge(found, {.series = model.series(result.residuals),
                     .result = &result,

@@ -48,7 +48,9 @@ std::string moved_text(const FittedParameter& p) {
 }
 
 std::string verdict_text(const FitFindings& found) {
-  if (is_sound(found.verdict)) return std::string(name_of(found.verdict));
+  if (is_sound(found.verdict))
+    return fmt::format("{}{}", name_of(found.verdict),
+                       found.is_discretised && found.finer.empty() ? ", the error of mesh and steps not tried" : "");
   return fmt::format("{}, {}", name_of(found.verdict),
                      found.posterior ? "intervals with a discrepancy of the model only" : "no intervals");
 }
@@ -66,7 +68,10 @@ void say_verdict(const FitFindings& found, const Session& session) {
                                           "the model, gives intervals"
                                         : "; see the warnings above. The estimates have no intervals, which would not "
                                           "hold";
-  session.log.say(fmt::format("verdict: {}{}", name_of(found.verdict), sound ? "" : without));
+  const bool is_untried = found.is_discretised && found.finer.empty();
+  const char* untried =
+      is_untried ? "; what mesh and steps do to the estimates is not in the intervals (finer of [fit] tries it)" : "";
+  session.log.say(fmt::format("verdict: {}{}", name_of(found.verdict), sound ? untried : without));
   if (!sound && session.strict)
     throw ComputationError(fmt::format("the fit is {}: {}", name_of(found.verdict), found.reasons.front()));
 }

@@ -15,6 +15,7 @@
 #include <ctime>
 #include <fstream>
 #include <regex>
+#include <utility>
 #include <vector>
 
 namespace pfdm::test::this_file {
@@ -76,6 +77,19 @@ TEST(Headlines, in_compression_keep_the_sign_of_the_force) {
   EXPECT_EQ(f.peak_force_at_most, -8.0);
   EXPECT_EQ(f.displacement_at_peak, -3e-6);
   EXPECT_DOUBLE_EQ(f.initial_stiffness, 2e6);
+}
+
+// Cooled in two steps, then pulled from the middle of the third on.
+TEST(Headlines, of_a_body_that_is_loaded_otherwise_first_have_the_stiffness_of_the_pull) {
+  std::vector<CurveRow> rows;
+  int step = 0;
+  for (const auto& [u, force] : {std::pair{0.0, 0.0}, {0.0, 3.0}, {0.0, 6.0}, {1e-6, 9.5}, {3e-6, 13.5}}) {
+    rows.push_back({step, 0.25 * step, u, Vector(0, force, 0), {}, 0.0, 0.0, 1});
+    ++step;
+  }
+  EXPECT_DOUBLE_EQ(headlines(rows, 1).initial_stiffness, 2e6);
+  rows.pop_back();
+  EXPECT_DOUBLE_EQ(headlines(rows, 1).initial_stiffness, 3.5e6);
 }
 
 TEST(Headlines, of_no_curve_or_an_unloaded_one_are_not_numbers) {

@@ -172,6 +172,12 @@ void correct_toughness(const Band& band, std::vector<RegionKeys>& regions, const
   keys.toughness->at = [toughness](const Vector& x) { return toughness.corrected(x); };
 }
 
+// Whether a region has a strength that no law of damage takes.
+bool has_idle_strength(const MaterialKeys& keys, const MaterialDefaults& defaults) {
+  return keys.strength && keys.damageable.value_or(true) && defaults.strength.law == nullptr &&
+         !keys.degradation.value_or(defaults.degradation).law().needs_strength;
+}
+
 }  // namespace
 
 const IsotropicElasticity& Materials::elasticity(const ConfigValue& name) const {
@@ -206,6 +212,11 @@ Materials read_materials(const ConfigTable& root, const MaterialDefaults& defaul
       return region_model(entry.keys, entry.region, defaults, entry.table, x);
     };
     const bool varies = any_varies(entry.keys);
+    if (defaults.elastic_keys == nullptr && has_idle_strength(entry.keys, defaults))
+      materials.idle_keys.push_back(fmt::format(
+          "strength of region \"{}\" changes nothing: the degradation \"{}\" has none (the model \"Wu\" and "
+          "the model \"strength\" do)",
+          entry.region, entry.keys.degradation.value_or(defaults.degradation).name()));
     if (!varies) at(Vector::Zero());  // what is wrong with it is wrong everywhere
     materials.by_region.push_back(
         {.region = entry.region,

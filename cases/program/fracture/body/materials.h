@@ -35,9 +35,10 @@ struct NamedElasticity {
 struct Materials {
   std::vector<NamedElasticity> by_name;
   std::vector<RegionMaterial> by_region;
-  std::vector<Band> bands;           ///< the mesh generator's and those that [regions.*] tell of
-  bool corrects_toughness = true;    ///< of bands, for their neighbours
-  std::vector<std::string> remarks;  ///< what was made of the numbers given, to be said in the log
+  std::vector<Band> bands;               ///< the mesh generator's and those that [regions.*] tell of
+  bool corrects_toughness = true;        ///< of bands, for their neighbours
+  std::vector<std::string> remarks;      ///< what was made of the numbers given, to be said in the log
+  std::vector<std::string> idle_keys{};  ///< warnings of keys that change nothing
 
   bool has_fatigue() const { return std::ranges::any_of(by_region, &RegionMaterial::has_fatigue); }
   /// The elasticity of the material that `name` holds; throws InputError naming those there are, or if it varies.

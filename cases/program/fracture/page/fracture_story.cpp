@@ -78,7 +78,7 @@ Table figures_table(const FractureStory& story) {
   Table table{.caption = "Figures",
               .rows = {{at_end ? "peak force, at the end" : "peak force", shown(f.peak_force, "N")},
                        {"its displacement", shown(f.displacement_at_peak, "m")},
-                       {"initial stiffness", shown(f.initial_stiffness, "N") + "/m"},
+                       {"stiffness of the first step", shown(f.initial_stiffness, "N") + "/m"},
                        {"final force", shown(f.final_force, "N")},
                        {"final displacement", shown(f.final_displacement, "m")}}};
   if (story.summary)

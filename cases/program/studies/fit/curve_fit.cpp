@@ -189,6 +189,7 @@ bool CurveFit::screen(const FitProblem& problem, const FitSettings& settings, do
 }
 
 bool CurveFit::judge_stage(const DoneStage& done, FitFindings& found) {
+  found.is_discretised = true;
   const double misfit = relative_misfit(done.result.residuals, done.points);
   return judge(found, {.series = series_of(done.points, done.result.residuals),
                        .n_elsewhere = n_field_data(),
