@@ -151,13 +151,15 @@ const KeyTable& sweep_keys() {
   static const KeyTable table{
       .name = "sweep",
       .sentence = "Sets of values with which pfdm sweep runs the case.",
-      .keys = {
-          {"method", choice("method of a sweep", {"grid", "list", "latin_hypercube"}), "",
-           "Which sets of values: all combinations, side by side, or a random sample (design of experiments)."},
-          {"samples", whole(samples_range), "with latin_hypercube", "Number of samples of the Latin hypercube."},
-          {"seed", whole(range::seed), "1", "Seed of the Latin hypercube."},
-          {"parameters", tables(sweep_parameter_keys), "", "Parameters that the sweep changes, each with its values."},
-          {"slurm", keys::table(slurm_keys), "none", "Resources of a task of --slurm on a cluster."}}};
+      .keys = {{"method", choice("method of a sweep", {"grid", "list", "latin_hypercube", "changes"}), "",
+                "Which sets of values: all combinations, side by side, a random sample, or one change at a time."},
+               {"samples", whole(samples_range), "with latin_hypercube", "Number of samples of the Latin hypercube."},
+               {"seed", whole(range::seed), "1", "Seed of the Latin hypercube."},
+               {"parameters", tables(sweep_parameter_keys), "with the other methods",
+                "Parameters that the sweep changes, each with its values."},
+               {"changes", names(names(value_type())), "with changes",
+                "Changes of the case, by name, as a finer mesh or shorter steps (convergence study)."},
+               {"slurm", keys::table(slurm_keys), "none", "Resources of a task of --slurm on a cluster."}}};
   return table;
 }
 

@@ -3,6 +3,7 @@
 #include "cases/program/fracture/outcome/debonded_poles.h"
 #include "cases/program/fracture/outcome/heat_results.h"
 #include "cases/program/fracture/outcome/mean_curve.h"
+#include "cases/program/session/terminal/stopwatch.h"
 #include "physics/angle.h"
 #include "physics/quantity_text.h"
 #include "postproc/files/json.h"
@@ -125,47 +126,42 @@ std::string place_of_law(const nlohmann::ordered_json& surface, const nlohmann::
   return fmt::format(" at polar angles of {:.0f} to {:.0f} degrees", from, to);
 }
 
-std::string line_of_law(const nlohmann::ordered_json& surface, const Vector& axis) {
-  const nlohmann::ordered_json* strongest = strongest_law(surface);
-  if (strongest == nullptr) return {};
-  const auto number = [&](const char* key) { return number_of(strongest->at(key)); };
+std::string line_of_law(const nlohmann::ordered_json& surface, const nlohmann::ordered_json& law, const Vector& axis) {
+  const auto number = [&](const char* key) { return number_of(law.at(key)); };
   return fmt::format("law of \"{}\"{}: largest normal traction {} at a separation of {}, surface energy {}{}",
-                     surface.at("name").get<std::string>(), place_of_law(surface, *strongest, axis),
-                     shown_in({.si_unit = "Pa"}, number("strength_Pa")), critical_separation(*strongest),
-                     quantity_text(number("surface_energy_J_per_m2"), "J/m^2"), unknown_of_law(*strongest));
+                     surface.at("name").get<std::string>(), place_of_law(surface, law, axis),
+                     shown_in({.si_unit = "Pa"}, number("strength_Pa")), critical_separation(law),
+                     quantity_text(number("surface_energy_J_per_m2"), "J/m^2"), unknown_of_law(law));
 }
 
-/// What `of` says of each surface of cohesive.json; none if there is no such file.
+/// What `of` says of each surface of cohesive.json that has an extracted law, and of the strongest of these; none if
+/// there is no such file.
 template <class T, class Of>
-std::vector<T> of_surfaces(const fs::path& results, const Of& of) {
+std::vector<T> of_laws(const fs::path& results, const Of& of) {
   const fs::path file = results / "cohesive.json";
   if (!fs::exists(file)) return {};
   return read_json(file, "file of cohesive laws", [&](const nlohmann::ordered_json& json) {
     std::vector<T> all;
     for (const auto& surface : json.at("surfaces"))
-      if (std::optional<T> one = of(surface)) all.push_back(std::move(*one));
+      if (const auto* law = strongest_law(surface)) all.push_back(of(surface, *law));
     return all;
   });
 }
 
 /// Of the surfaces whose laws are extracted, not given.
 std::vector<std::string> lines_of_laws(const fs::path& results, const Vector& axis) {
-  return of_surfaces<std::string>(results, [&](const nlohmann::ordered_json& surface) {
-    std::string line = line_of_law(surface, axis);
-    return line.empty() ? std::nullopt : std::optional(std::move(line));
-  });
+  return of_laws<std::string>(results,
+                              [&](const auto& surface, const auto& law) { return line_of_law(surface, law, axis); });
 }
 
-std::optional<HeadFigure> figure_of_law(const nlohmann::ordered_json& surface, const Vector& axis) {
-  const nlohmann::ordered_json* law = strongest_law(surface);
-  if (law == nullptr) return std::nullopt;
-  const auto number = [&](const char* key) { return number_of(law->at(key)); };
+HeadFigure figure_of_law(const nlohmann::ordered_json& surface, const nlohmann::ordered_json& law, const Vector& axis) {
+  const auto number = [&](const char* key) { return number_of(law.at(key)); };
   return HeadFigure{
       .label = fmt::format("Strength of \"{}\"", surface.at("name").get<std::string>()),
       .value = shown_in({.si_unit = "Pa"}, number("strength_Pa")),
       .note = fmt::format("largest normal traction{}, at a separation of {}; surface energy {}{}",
-                          place_of_law(surface, *law, axis), critical_separation(*law),
-                          quantity_text(number("surface_energy_J_per_m2"), "J/m^2"), unknown_of_law(*law))};
+                          place_of_law(surface, law, axis), critical_separation(law),
+                          quantity_text(number("surface_energy_J_per_m2"), "J/m^2"), unknown_of_law(law))};
 }
 
 /// "the lower pole", or "polar angles of 40 to 70 degrees".
@@ -210,6 +206,16 @@ std::vector<std::vector<std::string>> first_debonding_rows(const RunSummary& sum
   return rows;
 }
 
+std::map<std::string, double> figures_of_laws(const fs::path& results) {
+  using Figures = std::pair<double, double>;
+  const auto laws = of_laws<Figures>(results, [](const auto&, const auto& law) {
+    return Figures(number_of(law.at("strength_Pa")), number_of(law.at("surface_energy_J_per_m2")));
+  });
+  if (laws.empty()) return {};
+  const auto [strength, energy] = std::ranges::max(laws);
+  return {{"cohesive_strength_Pa", strength}, {"cohesive_energy_J_per_m2", energy}};
+}
+
 std::vector<std::string> what_happened(const FractureCase& fracture, const CaseFile& file, const RunSummary& summary,
                                        const fs::path& results) {
   const CurveUnits units = read_curve_units(file, fracture.output.curve);
@@ -237,11 +243,6 @@ std::vector<std::string> as_sentences(std::vector<std::string> lines) {
     line += ".";
   }
   return lines;
-}
-
-std::string duration_words(double seconds) {
-  if (seconds < 10.0) return fmt::format("{:.2g} s", seconds);
-  return seconds < 600.0 ? fmt::format("{:.0f} s", seconds) : fmt::format("{:.0f} min", seconds / 60.0);
 }
 
 std::vector<HeadFigure> run_figures(const FractureCase& fracture, const CurveUnits& units, const RunSummary& summary,
@@ -279,8 +280,10 @@ std::vector<HeadFigure> run_figures(const FractureCase& fracture, const CurveUni
                  (peak.is_coarse() ? fmt::format(", with shorter steps up to {}", shown_in(axes.y_shown, peak.at_most))
                                    : "")});
   }
-  const auto of_law = [&](const auto& one) { return figure_of_law(one, fracture.cohesive.axis); };
-  for (HeadFigure& law : of_surfaces<HeadFigure>(results, of_law)) figures.push_back(std::move(law));
+  const auto of_law = [&](const auto& surface, const auto& law) {
+    return figure_of_law(surface, law, fracture.cohesive.axis);
+  };
+  for (HeadFigure& law : of_laws<HeadFigure>(results, of_law)) figures.push_back(std::move(law));
   figures.push_back(
       {.label = "Run",
        .value = summary.status,

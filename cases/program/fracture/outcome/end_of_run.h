@@ -8,6 +8,7 @@
 #include "postproc/curves/summary.h"
 
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -27,11 +28,12 @@ std::vector<std::vector<std::string>> first_debonding_rows(const RunSummary& sum
 std::vector<std::string> what_happened(const FractureCase& fracture, const CaseFile& file, const RunSummary& summary,
                                        const std::filesystem::path& results);
 
+/// Largest normal traction and surface energy of the strongest law that was extracted into `results`, by their names in
+/// summary.json; empty where there is none.
+std::map<std::string, double> figures_of_laws(const std::filesystem::path& results);
+
 /// Lines as sentences.
 std::vector<std::string> as_sentences(std::vector<std::string> lines);
-
-/// "74 s", "12 min"
-std::string duration_words(double seconds);
 
 /// The same figures, each for itself: greatest temperature rise, first debonding, greatest force, laws, the run.
 std::vector<HeadFigure> run_figures(const FractureCase& fracture, const CurveUnits& units, const RunSummary& summary,

@@ -134,7 +134,7 @@ std::string finish(RunningCase& c, const std::string& status) {
   c.results.put_frames_into_one_file();
   RunSummary summary = summary_of(c.program, c.session, c.run, c.times);
   summary.status = status;
-  summary.other_figures = c.heat;
+  summary.other_figures = c.own_figures;
   summary = c.results.write_summary(summary);
   std::vector<std::string> told =
       as_sentences(what_happened(c.program.fracture, c.program.file, summary, c.results.folder()));
@@ -180,9 +180,11 @@ void solve(RunningCase& c) {
     const std::string status = advance(c);
     c.results.write_what_waits(c.state);
     if (status == "complete") c.results.write_last_frame([&] { return c.run.output(c.state); });
-    if (c.program.fracture.heat) c.heat = heat_at_the_end(c);
-    if (c.results.records_columns())
+    if (c.program.fracture.heat) c.own_figures = heat_at_the_end(c);
+    if (c.results.records_columns()) {
       write_cohesive_laws(c.program.fracture, c.program.file, c.program.name, c.program.hash, c.session, true);
+      c.own_figures.merge(figures_of_laws(c.results.folder()));
+    }
     c.session.log.say(finish(c, status));
   } catch (const Interrupted& wish) {
     const std::string told = finish_interrupted(c, wish.what());

@@ -49,7 +49,7 @@ struct RunningCase {
   FractureState state;    ///< the last one that was reached
   bool goes_on = false;   ///< from a state that is in the results already
   std::optional<LivePages> live{};
-  std::map<std::string, double> heat{};  ///< figures of the long time after the cycles
+  std::map<std::string, double> own_figures{};  ///< of the long time after the cycles, and of laws
 };
 
 /// Steps until the end of the load, --max-steps, an interruption or failure, and says what happened. Throws

@@ -14,20 +14,19 @@ std::string piece_of(const ConfigValue& value) {
   return value.is_string() ? quoted_toml(value.string()) : fmt::format("{}", value.number());
 }
 
-/// With the values of a table of [fit].
-std::optional<CaseVariant> changed_case(const ConfigTable& fit, const std::string& table, const CaseFile& file) {
-  if (!fit.has(table)) return std::nullopt;
+}  // namespace
+
+std::optional<CaseVariant> changed_case(const ConfigTable& where, const std::string& table, const CaseFile& file) {
+  if (!where.has(table)) return std::nullopt;
   std::string text = file.text;
   std::vector<std::string> shown;
-  for (const auto& [key, value] : fit.table(table).entries()) {
+  for (const auto& [key, value] : where.table(table).entries()) {
     text = value.in_context([&] { return with_value(text, key, piece_of(value)); });
     shown.push_back(fmt::format("{} = {}", key, value.is_string() ? value.string() : piece_of(value)));
   }
-  if (shown.empty()) throw fit.at(table).error("name at least one key of the case, as in \"mesh.z[0].cells\" = 10");
+  if (shown.empty()) throw where.at(table).error("name at least one key of the case, as in \"mesh.z[0].cells\" = 10");
   return CaseVariant{with_text(file, std::move(text)), fmt::format("{}", fmt::join(shown, ", "))};
 }
-
-}  // namespace
 
 std::optional<CaseVariant> finer_case(const ConfigTable& fit, const CaseFile& file) {
   return changed_case(fit, "finer", file);

@@ -9,8 +9,10 @@
 
 namespace pfdm {
 
-/// The case with the values of [fit] `finer`: keys of the case and numbers or texts in their place. Nothing if there is
-/// no such table. Throws InputError if a key is not there.
+/// The case with the values of a table of `where`: keys of the case and numbers or texts in their place. Nothing if
+/// there is no such table. Throws InputError if a key is not there.
+std::optional<CaseVariant> changed_case(const ConfigTable& where, const std::string& table, const CaseFile& file);
+/// The case with the values of [fit] `finer`.
 std::optional<CaseVariant> finer_case(const ConfigTable& fit, const CaseFile& file);
 /// The same with those of [fit] `coarse`.
 std::optional<CaseVariant> coarse_case(const ConfigTable& fit, const CaseFile& file);

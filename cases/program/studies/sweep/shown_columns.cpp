@@ -51,6 +51,29 @@ std::string ShownColumn::cell(std::size_t i) const {
   return names.empty() ? shown(values[i]) : names.at(static_cast<std::size_t>(values[i]));
 }
 
+std::string in_ascii(std::string unit) {
+  for (const auto& [sign, plain] :
+       {std::pair("µ", "u"), std::pair("²", "^2"), std::pair("³", "^3"), std::pair("°", "deg")})
+    if (const std::size_t at = unit.find(sign); at != std::string::npos)
+      unit.replace(at, std::string_view(sign).size(), plain);
+  return unit;
+}
+
+std::vector<std::size_t> headline_columns(const CsvTable& table) {
+  constexpr std::string_view names[] = {"peak_force_N",
+                                        "displacement_at_peak_m",
+                                        "first_debonding_force_N",
+                                        "first_debonding_displacement_m",
+                                        "initial_stiffness_N_per_m",
+                                        "cohesive_strength_Pa",
+                                        "cohesive_energy_J_per_m2"};
+  std::vector<std::size_t> columns;
+  for (const std::string_view name : names)
+    if (const auto found = std::ranges::find(table.names, name); found != table.names.end())
+      columns.push_back(static_cast<std::size_t>(found - table.names.begin()));
+  return columns;
+}
+
 std::string comment_of_word(const std::string& column, std::size_t k, const std::string& word) {
   return fmt::format("{}, {}:{}{}", column, k, trimmed(word).empty() ? "" : " ", trimmed(word));
 }

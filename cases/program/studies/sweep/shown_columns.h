@@ -27,6 +27,12 @@ ShownColumn shown_column(const CsvTable& table, std::size_t j);
 /// "peak_force_N" of numbers in SI as "peak force" in the unit that suits the largest of them.
 ShownColumn shown_column(const std::string& name, const std::vector<double>& values);
 
+/// A unit as a terminal takes it: "um" of micrometres, "^2" of squares.
+std::string in_ascii(std::string unit);
+
+/// Columns of figures that one asks for first, of runs with a force-displacement curve or an interface, in this order.
+std::vector<std::size_t> headline_columns(const CsvTable& table);
+
 /// Whether the finite values of a column differ.
 bool varies(const std::vector<double>& values);
 

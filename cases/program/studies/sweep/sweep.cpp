@@ -6,6 +6,7 @@
 #include "cases/program/session/terminal/stopwatch.h"
 #include "cases/program/studies/runs/case_runs.h"
 #include "cases/program/studies/sweep/shown_columns.h"
+#include "cases/program/studies/sweep/sweep_changes.h"
 #include "cases/program/studies/sweep/sweep_on_slurm.h"
 #include "cases/program/studies/sweep/sweep_report.h"
 #include "postproc/curves/summary.h"
@@ -59,11 +60,7 @@ bool are_realisations(const SweepSettings& settings) {
 
 /// In ASCII, as all that a terminal gets. `shown`: of mean and standard deviation.
 std::string scatter_line(const ShownColumn& shown, std::size_t n) {
-  std::string unit = shown.unit.empty() ? "" : " " + shown.unit;
-  for (const auto& [sign, plain] :
-       {std::pair("µ", "u"), std::pair("²", "^2"), std::pair("³", "^3"), std::pair("°", "deg")})
-    if (const std::size_t at = unit.find(sign); at != std::string::npos)
-      unit.replace(at, std::string_view(sign).size(), plain);
+  const std::string unit = shown.unit.empty() ? "" : " " + in_ascii(shown.unit);
   return fmt::format("{}: mean {:.6g}{}, standard deviation {:.3g}{}, of {} realisations", shown.words, shown.values[0],
                      unit, shown.values[1], unit, n);
 }
@@ -182,19 +179,18 @@ void run_sweep(const CaseFile& file, const SweepSettings& settings, Session& ses
       head_line(session, fmt::format("sweep of {}: {}", case_name(file), counted(count_of(settings.points), "run"))));
   session.log.open_file(session.results / "sweep.log", true);
   CaseRuns runs(session.results / "runs", session);
-  std::vector<CaseVariant> variants;
-  for (const std::vector<double>& point : settings.points)
-    variants.push_back({with_values(file, settings.parameters, point), shown(settings.parameters, point)});
+  const std::vector<CaseVariant> variants = variants_of(settings, file);
   const std::vector<MissingRun> missing = runs.missing(variants);
   if (!missing.empty() && session.slurm) return hand_to_slurm(file, settings.slurm, missing, session);
   if (!missing.empty()) require_no_tasks_of(session);
   const std::vector<DoneRun> done = runs.run(variants);
   link_by_value(settings, done, session.results);
   CsvTable table = table_of(settings, done, session.results);
-  for (const std::string& line : scatter(settings, table)) {
-    table.comments.push_back(line);
-    session.log.say(fmt::format("  {}", line));
-  }
+  for (const auto& lines : {scatter(settings, table), lines_of_changes(settings, table)})
+    for (const std::string& line : lines) {
+      table.comments.push_back(line);
+      session.log.say(fmt::format("  {}", line));
+    }
   write_csv(session.results / "sweep.csv", table);
   if (std::ranges::none_of(done, &DoneRun::went_well))
     throw ComputationError(fmt::format("none of the {} runs of the sweep came to its end; run 1: {}; all are in {}",
@@ -206,16 +202,18 @@ void run_sweep(const CaseFile& file, const SweepSettings& settings, Session& ses
 
 void say_sweep(const CaseFile& file, const SweepSettings& settings, Session& session) {
   constexpr std::size_t most = 12, most_read = 1000;
-  const std::size_t n = settings.points.size();
+  const std::vector<CaseVariant> variants = variants_of(settings, file);
+  const std::size_t n = variants.size();
   session.log.say(fmt::format("pfdm sweep would make {}:", counted(static_cast<Index>(n), "run")));
   for (std::size_t i = 0; i < n; ++i) {
-    const std::string values = shown(settings.parameters, settings.points[i]);
-    if (i < most) session.log.say(fmt::format("  run {}: {}", i + 1, values));
+    const CaseVariant& variant = variants[i];
+    if (i < most) session.log.say(fmt::format("  run {}: {}", i + 1, variant.shown));
     if (i >= most_read) break;
     try {
-      session.read_case(with_values(file, settings.parameters, settings.points[i]));
+      session.read_case(variant.file);
     } catch (const InputError& error) {
-      session.log.warn(fmt::format("run {} of the sweep cannot be made, with {}: {}", i + 1, values, error.what()));
+      session.log.warn(
+          fmt::format("run {} of the sweep cannot be made, with {}: {}", i + 1, variant.shown, error.what()));
     }
   }
   if (n > most) session.log.say(fmt::format("  and {} more", n - most));

@@ -1,5 +1,7 @@
 #include "cases/program/studies/sweep/sweep_case.h"
 
+#include "cases/program/studies/sweep/sweep_changes.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -106,6 +108,14 @@ Points samples(const std::vector<ConfigTable>& tables, const std::vector<CasePar
 
 }  // namespace
 
+std::vector<CaseVariant> variants_of(const SweepSettings& settings, const CaseFile& file) {
+  if (!settings.variants.empty()) return settings.variants;
+  std::vector<CaseVariant> variants;
+  for (const std::vector<double>& point : settings.points)
+    variants.push_back({with_values(file, settings.parameters, point), shown(settings.parameters, point)});
+  return variants;
+}
+
 std::vector<std::vector<double>> latin_hypercube(std::size_t n, std::size_t n_dimensions, std::uint64_t seed) {
   std::mt19937_64 engine(seed);
   std::uniform_real_distribution<double> uniform(0.0, 1.0);
@@ -124,6 +134,9 @@ std::optional<SweepSettings> read_sweep(const CaseFile& file) {
   const ConfigTable root = file.config.root();
   if (!root.has("sweep")) return std::nullopt;
   const ConfigTable sweep = root.table("sweep");
+  const std::string method = sweep.choice("method");
+  if (method == "changes") return read_changes(sweep, file);
+  if (sweep.has("changes")) throw sweep.at("changes").error("this needs method = \"changes\"");
   SweepSettings settings;
   const std::vector<ConfigTable> tables = sweep.tables("parameters");
   for (const ConfigTable& table : tables) {
@@ -132,7 +145,6 @@ std::optional<SweepSettings> read_sweep(const CaseFile& file) {
   }
   if (sweep.has("slurm")) settings.slurm = read_slurm(sweep.table("slurm"));
   if (tables.empty()) throw sweep.error("at least one [[sweep.parameters]] is required");
-  const std::string method = sweep.choice("method");
   if (method == "latin_hypercube") {
     settings.points = samples(tables, settings.parameters, sweep);
     return settings;

@@ -2,6 +2,7 @@
 // Reads [sweep] of a case of any kind: which values are changed, and which sets of values are run.
 
 #include "cases/program/input/case_files/case_parameter.h"
+#include "cases/program/studies/runs/case_runs.h"
 #include "cases/program/studies/runs/slurm.h"
 
 #include <cstdint>
@@ -13,11 +14,16 @@ namespace pfdm {
 struct SweepSettings {
   std::vector<CaseParameter> parameters;
   std::vector<std::vector<double>> points;  ///< a value of each parameter [SI]
+  /// One of each point, where no keys' values make them (sweep_changes.h); else empty.
+  std::vector<CaseVariant> variants{};
   SlurmSettings slurm;
 };
 
 /// Nothing if there is no [sweep]. Throws InputError that names file and line.
 std::optional<SweepSettings> read_sweep(const CaseFile& file);
+
+/// What the sweep runs, a case of each point.
+std::vector<CaseVariant> variants_of(const SweepSettings& settings, const CaseFile& file);
 
 /// Samples of the unit cube: each of the n intervals of each dimension holds one. McKay, Beckman, Conover,
 /// Technometrics 21 (1979) 239.

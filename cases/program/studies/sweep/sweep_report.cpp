@@ -20,10 +20,6 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t most_runs_shown = 40, most_figures = 6, most_columns = 3, most_series = 8, longest_label = 24;
 
-/// Figures that one asks for first; others that differ between the runs follow.
-constexpr std::string_view wanted_first[] = {"peak_force_N", "displacement_at_peak_m", "first_debonding_force_N",
-                                             "first_debonding_displacement_m", "initial_stiffness_N_per_m"};
-
 /// Numbers of columns: what the sweep changes, and figures that came out.
 struct SweepColumns {
   std::vector<std::size_t> parameters, figures;
@@ -38,9 +34,7 @@ SweepColumns columns_of(const CsvTable& table) {
         std::ranges::count(columns.figures, j) == 0)
       columns.figures.push_back(j);
   };
-  for (const std::string_view name : wanted_first)
-    if (const auto found = std::ranges::find(table.names, name); found != table.names.end())
-      add(static_cast<std::size_t>(found - table.names.begin()));
+  for (const std::size_t j : headline_columns(table)) add(j);
   for (std::size_t j = converged + 1; j < table.names.size(); ++j) add(j);
   return columns;
 }
