@@ -124,7 +124,7 @@ void run_case(FractureProgram program, Session& session) {
   warn_of_model(run, mesh, session);
   const FractureState initial = run.initial_state();
   const std::vector<ColumnSet> surfaces = column_sets(program.fracture.cohesive, mesh, run.model());
-  const std::vector<ColumnSet> none, &columns = session.figures_only ? none : surfaces;
+  const std::vector<ColumnSet> none, &columns = session.figures_only && !session.records_laws ? none : surfaces;
   const DebondingWatch watch(surfaces, program.fracture.cohesive.axis, initial.damage);
   const FolderLock lock(session.results);
   const auto last = state_to_go_on_from(program, initial, columns.size(), session);

@@ -38,6 +38,7 @@ struct Session {
   bool slurm = false;                ///< hand the runs of a sweep to Slurm
   std::filesystem::path curve_to{};  ///< where a script reads the rows of the curve while the run goes on
   bool figures_only = false;         ///< of many runs: summary and curves, no fields
+  bool records_laws = false;         ///< and of these the laws of interfaces too
   MeshStore* meshes = nullptr;       ///< where meshes are kept that several runs share
   ExportWords exports{};             ///< of cohesive
   SensitivityWords sensitivity{};

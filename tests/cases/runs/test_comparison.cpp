@@ -77,7 +77,7 @@ TEST(Comparison, HasTheNumbersOfTheResults) {
     const std::pair<std::string, double> due[] = {
         {"peak force [N]", summary->number("peak_force_N")},
         {"external work [µJ]", 1e6 * summary->number("external_work_J")},
-        {"initial stiffness [N/m]", summary->number("initial_stiffness_N_per_m")}};
+        {"initial stiffness [MN/m]", 1e-6 * summary->number("initial_stiffness_N_per_m")}};
     for (const auto& [name, value] : due) {
       const auto row = std::ranges::find_if(figures, [&](const auto& r) { return r[0] == name; });
       ASSERT_NE(row, figures.end()) << name;

@@ -280,9 +280,7 @@ std::vector<HeadFigure> run_figures(const FractureCase& fracture, const CurveUni
                  (peak.is_coarse() ? fmt::format(", with shorter steps up to {}", shown_in(axes.y_shown, peak.at_most))
                                    : "")});
   }
-  const auto of_law = [&](const auto& surface, const auto& law) {
-    return figure_of_law(surface, law, fracture.cohesive.axis);
-  };
+  const auto of_law = [&](const auto& on, const auto& law) { return figure_of_law(on, law, fracture.cohesive.axis); };
   for (HeadFigure& law : of_laws<HeadFigure>(results, of_law)) figures.push_back(std::move(law));
   figures.push_back(
       {.label = "Run",

@@ -23,6 +23,8 @@ namespace fs = std::filesystem;
 constexpr const char* failure_file = "failure.txt";
 enum RunStatus { run_went_well = 0, run_did_not_converge = 1, run_broke_off = 2 };
 
+constexpr std::string_view laws_in_key = "_laws";
+
 /// Tables that a run does not look at, or whose files it does not write here.
 constexpr std::string_view without_influence[] = {"cohesive", "experiment", "fit", "sweep"};
 
@@ -53,6 +55,11 @@ void CaseRuns::record(const std::vector<FieldPlace>& places) {
   if (places.empty()) return;
   session_.places = &places;
   recorded_ = fmt::format("_{:016x}", hash_of(places));
+}
+
+void CaseRuns::record_laws() {
+  session_.records_laws = true;
+  recorded_ += laws_in_key;
 }
 
 /// A variant that cannot be is remembered so; its key is what is shown of it.
@@ -99,6 +106,7 @@ std::vector<MissingRun> CaseRuns::missing(const std::vector<CaseVariant>& varian
 }
 
 void CaseRuns::run_here(const CaseVariant& variant, const std::string& key) {
+  if (key.find(laws_in_key) != std::string::npos && !session_.records_laws) record_laws();
   if (key_of(variant) != key)
     throw InputError(fmt::format(
         "{}: the program or files that the case reads have changed since this run was prepared", variant.shown));
@@ -149,6 +157,7 @@ int CaseRuns::do_run(const Wanted& wanted, int threads, Log& log) {
                   .read_case = session_.read_case,
                   .log = log,
                   .figures_only = true,
+                  .records_laws = session_.records_laws,
                   .meshes = &meshes_,
                   .places = session_.places};
   const auto give_up = [&](const std::exception& failure) {

@@ -40,6 +40,8 @@ class CaseRuns {
   /// Runs record the displacements at these places, which have to stay; others than those of earlier runs make new
   /// ones.
   void record(const std::vector<FieldPlace>& places);
+  /// Runs record the laws of interfaces too; other runs are not theirs.
+  void record_laws();
   CaseRuns(const CaseRuns&) = delete;
   CaseRuns& operator=(const CaseRuns&) = delete;
 

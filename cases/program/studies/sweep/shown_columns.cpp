@@ -17,7 +17,7 @@ struct Ending {
   std::string_view ending, unit;
   bool takes_prefix;
 };
-constexpr Ending endings[] = {{"_N_per_m", "N/m", false},
+constexpr Ending endings[] = {{"_N_per_m", "N/m", true},
                               {"_J_per_m2", "J/m²", false},
                               {"_J_per_m3", "J/m^3", true},
                               {"_bytes", "B", true},

@@ -54,8 +54,9 @@ bool are_realisations(const SweepSettings& settings) {
   const auto is_seed = [](const std::string& key) {
     return key == "seed" || key.ends_with(".seed") || key.ends_with("_seed");
   };
-  return std::ranges::all_of(settings.parameters,
-                             [&](const CaseParameter& p) { return std::ranges::all_of(p.keys, is_seed); });
+  return settings.variants.empty() && std::ranges::all_of(settings.parameters, [&](const CaseParameter& p) {
+           return std::ranges::all_of(p.keys, is_seed);
+         });
 }
 
 /// In ASCII, as all that a terminal gets. `shown`: of mean and standard deviation.
@@ -179,6 +180,7 @@ void run_sweep(const CaseFile& file, const SweepSettings& settings, Session& ses
       head_line(session, fmt::format("sweep of {}: {}", case_name(file), counted(count_of(settings.points), "run"))));
   session.log.open_file(session.results / "sweep.log", true);
   CaseRuns runs(session.results / "runs", session);
+  if (!settings.variants.empty()) runs.record_laws();
   const std::vector<CaseVariant> variants = variants_of(settings, file);
   const std::vector<MissingRun> missing = runs.missing(variants);
   if (!missing.empty() && session.slurm) return hand_to_slurm(file, settings.slurm, missing, session);

@@ -15,7 +15,8 @@ namespace {
 std::string change_text(double from, double to) {
   if (!std::isfinite(from) || !std::isfinite(to) || from == 0.0) return "not known";
   const double percent = 100.0 * (to / from - 1.0);
-  return std::abs(percent) < 5e-3 ? "0 %" : fmt::format("{:+.2g} %", percent);
+  if (std::abs(percent) < 5e-3) return "0 %";
+  return std::abs(percent) < 99.5 ? fmt::format("{:+.2g} %", percent) : fmt::format("{:+.0f} %", percent);
 }
 
 }  // namespace
