@@ -56,8 +56,9 @@ two_fibres = [Write("two_fibres/fibres.geo"), Command(), Write("two_fibres/case.
               Command(says=("fibre                         692 cells", "matrix                       1918 cells"))]
 tutorials = {
     "bead": [Command(slow=True), Command(slow=True, says=("report/index.html",)), Command(), Merge("my_bead/case.toml"),
-             Command(slow=True, quick="check"), Command(slow=True), Command(slow=True), Write("study.py"),
-             Command(slow=True, says=("200 J/m^2",))],
+             Command(slow=True, quick="check"), Command(slow=True),
+             Command(slow=True, says=("first debonding displacement", "twice the layers")), Command(slow=True),
+             Write("study.py"), Command(slow=True, says=("200 J/m^2",))],
     "mesh": two_fibres,
     "curve": [Command(slow=True), Command(), Do(own_record), Replace("my_fit/case.toml", "[[experiment.specimens]]"),
               Shown("my_fit/case.toml"), Command(slow=True, quick="check"), Command(slow=True)],

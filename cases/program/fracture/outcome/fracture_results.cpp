@@ -147,9 +147,9 @@ void FractureResults::take_place(const FractureState& state) {
   files_.emplace(folder(), fracture_, sets_, state.step);
 }
 
-/// Many short runs would spend more time on flushing to the disk than on computing.
+/// Many short runs would spend more time on flushing to the disk than on computing. Columns are written step by step.
 bool FractureResults::may_wait() const {
-  return fracture_.output.figures_only && since_written_.seconds() < seconds_at_stake;
+  return fracture_.output.figures_only && !files_->columns && since_written_.seconds() < seconds_at_stake;
 }
 
 void FractureResults::write_what_waits(const FractureState& state) {

@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 constexpr const char* failure_file = "failure.txt";
 enum RunStatus { run_went_well = 0, run_did_not_converge = 1, run_broke_off = 2 };
 
-constexpr std::string_view laws_in_key = "_laws";
+constexpr std::string_view laws_in_key = "_laws";  // of runs that record them
 
 /// Tables that a run does not look at, or whose files it does not write here.
 constexpr std::string_view without_influence[] = {"cohesive", "experiment", "fit", "sweep"};
