@@ -43,7 +43,34 @@ TEST(SweepChanges, RunTheCaseAndEachChangeAlone) {
   const CsvTable curve = read_csv(directory.results() / "force_displacement.csv");
   EXPECT_EQ(peak[0], std::ranges::max(curve.column("force_x_N")));
   EXPECT_EQ(run({"report", directory.path().string(), "--quiet"}).status, 0);
-  EXPECT_THAT(content_of(directory.results() / "report" / "sweep" / "index.html"), HasSubstr("half the steps"));
+  EXPECT_THAT(content_of(directory.results() / "report" / "sweep" / "index.html"),
+              HasSubstr("peak force 17.41 N: half the steps 0 %, twice as stiff +38 %"));
+}
+
+TEST(SweepChanges, AreToldOnThePageOfTheRunThatTheyAreOf) {
+  const TemporaryCase directory(bar_case() + changes);
+  const auto page = [&] {
+    EXPECT_EQ(run({"run", directory.path().string(), "--quiet"}).status, 0);
+    EXPECT_EQ(run({"report", directory.path().string(), "--quiet"}).status, 0);
+    return content_of(directory.results() / "report" / "index.html");
+  };
+  const std::string unknown = "One run does not tell what its mesh and steps do to it",
+                    known =
+                        "What changes of mesh and steps do to it, one at a time: peak force 17.41 N: half the steps";
+  EXPECT_THAT(page(), HasSubstr(unknown));
+  ASSERT_EQ(run({"sweep", directory.path().string(), "--quiet"}).status, 0);
+  EXPECT_THAT(page(), HasSubstr(known));
+  directory.write("case.toml", replaced(bar_case() + changes, "\"80 J/m^2\"", "\"60 J/m^2\""));
+  EXPECT_THAT(page(), HasSubstr(unknown));
+}
+
+// As of a case that was copied, and has another mesh.
+TEST(SweepChanges, OfKeysThatTheCaseHasNotDoNotStopARun) {
+  const TemporaryCase directory(bar_case() + replaced(changes, "materials.concrete", "materials.steel"));
+  EXPECT_EQ(run({"run", directory.path().string(), "--quiet"}).status, 0);
+  const Outcome outcome = run({"sweep", directory.path().string()});
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_THAT(outcome.err, HasSubstr("[sweep.changes.twice as stiff]"));
 }
 
 TEST(SweepChanges, AreRefusedWithWhereAndWhy) {

@@ -4,6 +4,7 @@
 #include "cases/program/fracture/outcome/fracture_files.h"
 #include "cases/program/fracture/outcome/mean_curve.h"
 #include "cases/program/fracture/page/debonding_charts.h"
+#include "cases/program/studies/sweep/sweep_changes.h"
 #include "postproc/browser/body.h"
 
 #include <fmt/format.h>
@@ -90,6 +91,7 @@ BrowserExtras fracture_extras(const FractureCase& fracture, const std::optional<
     summary->figures = headlines(curve, fracture.output.curve.component);
     for (std::string& sentence : as_sentences(what_happened(fracture, file, *summary, results)))
       extras.headline.push_back(in_print(std::move(sentence)));
+    extras.headline.push_back(in_print(words_of_error(results, summary->figures->peak_force)));
     extras.figures = run_figures(fracture, units, *summary, results);
   }
   extras.steps = words_of_steps(fracture, units, curve, results);

@@ -54,9 +54,9 @@ bool are_realisations(const SweepSettings& settings) {
   const auto is_seed = [](const std::string& key) {
     return key == "seed" || key.ends_with(".seed") || key.ends_with("_seed");
   };
-  return settings.variants.empty() && std::ranges::all_of(settings.parameters, [&](const CaseParameter& p) {
-           return std::ranges::all_of(p.keys, is_seed);
-         });
+  return !settings.is_of_changes && std::ranges::all_of(settings.parameters, [&](const CaseParameter& p) {
+    return std::ranges::all_of(p.keys, is_seed);
+  });
 }
 
 /// In ASCII, as all that a terminal gets. `shown`: of mean and standard deviation.
@@ -95,6 +95,7 @@ std::string name_by_value(const SweepSettings& settings, std::size_t run) {
   for (std::size_t j = 0; j < settings.parameters.size(); ++j) {
     const CaseParameter& parameter = settings.parameters[j];
     std::string part = fmt::format("{}={}", parameter.short_name(), parameter.shown(settings.points[run][j]));
+    if (settings.is_of_changes) std::ranges::replace(part, ' ', '_');
     std::erase_if(part, [](char c) { return c == ' ' || c == '^' || c == ']'; });
     for (char& c : part)
       if (plain.find(c) == std::string_view::npos) c = '_';
@@ -180,7 +181,7 @@ void run_sweep(const CaseFile& file, const SweepSettings& settings, Session& ses
       head_line(session, fmt::format("sweep of {}: {}", case_name(file), counted(count_of(settings.points), "run"))));
   session.log.open_file(session.results / "sweep.log", true);
   CaseRuns runs(session.results / "runs", session);
-  if (!settings.variants.empty()) runs.record_laws();
+  if (settings.is_of_changes) runs.record_laws();
   const std::vector<CaseVariant> variants = variants_of(settings, file);
   const std::vector<MissingRun> missing = runs.missing(variants);
   if (!missing.empty() && session.slurm) return hand_to_slurm(file, settings.slurm, missing, session);
@@ -188,11 +189,14 @@ void run_sweep(const CaseFile& file, const SweepSettings& settings, Session& ses
   const std::vector<DoneRun> done = runs.run(variants);
   link_by_value(settings, done, session.results);
   CsvTable table = table_of(settings, done, session.results);
-  for (const auto& lines : {scatter(settings, table), lines_of_changes(settings, table)})
-    for (const std::string& line : lines) {
-      table.comments.push_back(line);
-      session.log.say(fmt::format("  {}", line));
-    }
+  for (const std::string& line : scatter(settings, table)) {
+    table.comments.push_back(line);
+    session.log.say(fmt::format("  {}", line));
+  }
+  for (const std::string& line : lines_of_changes(settings, table)) {
+    table.comments.push_back(fmt::format("{}{}", mark_of_changes, line));
+    session.log.say(fmt::format("  {}", line));
+  }
   write_csv(session.results / "sweep.csv", table);
   if (std::ranges::none_of(done, &DoneRun::went_well))
     throw ComputationError(fmt::format("none of the {} runs of the sweep came to its end; run 1: {}; all are in {}",

@@ -109,7 +109,7 @@ Points samples(const std::vector<ConfigTable>& tables, const std::vector<CasePar
 }  // namespace
 
 std::vector<CaseVariant> variants_of(const SweepSettings& settings, const CaseFile& file) {
-  if (!settings.variants.empty()) return settings.variants;
+  if (settings.is_of_changes) return changed_cases(file);
   std::vector<CaseVariant> variants;
   for (const std::vector<double>& point : settings.points)
     variants.push_back({with_values(file, settings.parameters, point), shown(settings.parameters, point)});
@@ -135,7 +135,7 @@ std::optional<SweepSettings> read_sweep(const CaseFile& file) {
   if (!root.has("sweep")) return std::nullopt;
   const ConfigTable sweep = root.table("sweep");
   const std::string method = sweep.choice("method");
-  if (method == "changes") return read_changes(sweep, file);
+  if (method == "changes") return read_changes(sweep);
   if (sweep.has("changes")) throw sweep.at("changes").error("this needs method = \"changes\"");
   SweepSettings settings;
   const std::vector<ConfigTable> tables = sweep.tables("parameters");

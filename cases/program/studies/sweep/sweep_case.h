@@ -14,15 +14,14 @@ namespace pfdm {
 struct SweepSettings {
   std::vector<CaseParameter> parameters;
   std::vector<std::vector<double>> points;  ///< a value of each parameter [SI]
-  /// One of each point, where no keys' values make them (sweep_changes.h); else empty.
-  std::vector<CaseVariant> variants{};
+  bool is_of_changes = false;               ///< the only parameter is the change (sweep_changes.h)
   SlurmSettings slurm;
 };
 
 /// Nothing if there is no [sweep]. Throws InputError that names file and line.
 std::optional<SweepSettings> read_sweep(const CaseFile& file);
 
-/// What the sweep runs, a case of each point.
+/// What the sweep runs, a case of each point. Throws InputError where a change names a key that the case has not.
 std::vector<CaseVariant> variants_of(const SweepSettings& settings, const CaseFile& file);
 
 /// Samples of the unit cube: each of the n intervals of each dimension holds one. McKay, Beckman, Conover,

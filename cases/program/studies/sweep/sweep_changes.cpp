@@ -2,10 +2,13 @@
 
 #include "cases/program/studies/runs/finer_case.h"
 #include "cases/program/studies/sweep/shown_columns.h"
+#include "cases/program/studies/sweep/sweep_report.h"
+#include "postproc/files/text_file.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace pfdm {
@@ -21,7 +24,7 @@ std::string change_text(double from, double to) {
 
 }  // namespace
 
-SweepSettings read_changes(const ConfigTable& sweep, const CaseFile& file) {
+SweepSettings read_changes(const ConfigTable& sweep) {
   if (!sweep.has("changes"))
     throw sweep.error(
         "the method \"changes\" needs [sweep.changes], as in \"finer mesh\" = { \"mesh.x[0].cells\" = 80 }");
@@ -30,20 +33,46 @@ SweepSettings read_changes(const ConfigTable& sweep, const CaseFile& file) {
   SweepSettings settings;
   if (sweep.has("slurm")) settings.slurm = read_slurm(sweep.table("slurm"));
   CaseParameter change{.name = "change", .keys = {}, .ratios = {}, .unit = {}, .words = {"none"}};
-  settings.variants.push_back({file, "the case as it is"});
-  for (const auto& [name, keys] : changes.entries()) {
-    settings.variants.push_back(*changed_case(changes, name, file));
-    change.words.push_back(name);
-  }
+  for (const auto& [name, keys] : changes.entries()) change.words.push_back(name);
   if (change.words.size() == 1) throw sweep.at("changes").error("at least one change is required");
+  for (std::size_t k = 0; k < change.words.size(); ++k) settings.points.push_back({static_cast<double>(k)});
   settings.parameters.push_back(std::move(change));
-  for (std::size_t k = 0; k < settings.variants.size(); ++k) settings.points.push_back({static_cast<double>(k)});
+  settings.is_of_changes = true;
   return settings;
+}
+
+std::vector<CaseVariant> changed_cases(const CaseFile& file) {
+  const ConfigTable changes = file.config.root().table("sweep").table("changes");
+  std::vector<CaseVariant> variants{{file, "the case as it is"}};
+  for (const auto& [name, keys] : changes.entries()) variants.push_back(*changed_case(changes, name, file));
+  return variants;
+}
+
+std::vector<std::string> told_changes(const CsvTable& table) {
+  std::vector<std::string> lines;
+  for (const std::string& comment : table.comments)
+    if (const std::string_view told = trimmed(comment); told.starts_with(mark_of_changes))
+      lines.emplace_back(told.substr(mark_of_changes.size()));
+  return lines;
+}
+
+std::string words_of_error(const std::filesystem::path& results, double peak_force) {
+  constexpr double rounding = 1e-9;
+  if (std::filesystem::exists(results / sweep_file)) {
+    const CsvTable table = read_csv(results / sweep_file, {.has_gaps = true});
+    const std::vector<std::string> lines = told_changes(table);
+    const auto peak = std::ranges::find(table.names, "peak_force_N") - table.names.begin();
+    const bool is_of_run = peak < std::ssize(table.names) && table.n_rows() > 0 &&
+                           std::abs(table.columns[peak].front() - peak_force) <= rounding * std::abs(peak_force);
+    if (!lines.empty() && is_of_run)
+      return fmt::format("What changes of mesh and steps do to it, one at a time: {}.", fmt::join(lines, "; "));
+  }
+  return "One run does not tell what its mesh and steps do to it: pfdm sweep with the method \"changes\" does.";
 }
 
 std::vector<std::string> lines_of_changes(const SweepSettings& settings, const CsvTable& table) {
   std::vector<std::string> lines;
-  if (settings.variants.empty() || table.column("converged").front() == 0.0) return lines;
+  if (!settings.is_of_changes || table.column("converged").front() == 0.0) return lines;
   const std::vector<std::string>& words = settings.parameters.front().words;
   for (const std::size_t j : headline_columns(table)) {
     const ShownColumn figure = shown_column(table, j);

@@ -2,6 +2,7 @@
 
 #include "cases/program/session/report_parts.h"
 #include "cases/program/studies/sweep/shown_columns.h"
+#include "cases/program/studies/sweep/sweep_changes.h"
 #include "cases/program/studies/sweep/sweep_runs.h"
 #include "postproc/curves/summary.h"
 #include "postproc/files/csv_table.h"
@@ -110,6 +111,9 @@ ReportPage sweep_page(const fs::path& results, const std::string& title, const s
                   .subtitle = fmt::format("pfdm {}, sweep of {} run{}, {} of them converged", version, table.n_rows(),
                                           table.n_rows() == 1 ? "" : "s", converged),
                   .rows = {PageRow{.blocks = {runs_table(table, columns)}}}};
+  if (std::vector<std::string> changes = told_changes(table); !changes.empty())
+    page.rows.insert(page.rows.begin(),
+                     PageRow{.blocks = {TextBlock{.caption = "What each change does", .lines = std::move(changes)}}});
   std::vector<PageBlock> charts;
   for (const std::size_t figure : columns.figures)
     for (const std::size_t x : columns.parameters)
@@ -131,7 +135,9 @@ bool has_own_run(const fs::path& results) {
 
 void report_sweep(const std::string& title, Session& session) {
   const fs::path folder = session.results / "report" / (has_own_run(session.results) ? "sweep" : "");
-  write_pages(folder, sweep_page(session.results, title, session.version), session, {.runs = sweep_runs(session)});
+  write_pages(folder, sweep_page(session.results, title, session.version), session,
+              {.headline = told_changes(read_csv(session.results / sweep_file, {.has_gaps = true})),
+               .runs = sweep_runs(session)});
 }
 
 }  // namespace pfdm
