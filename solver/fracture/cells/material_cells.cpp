@@ -129,11 +129,6 @@ bool MaterialCells::all_drives(Index cell) const {
   return relaxing == nullptr || relaxing->drive == PronyDrive::stored;
 }
 
-double MaterialCells::relaxed_energy(Index cell, const CellHistories& histories) const {
-  const EnergySplit& split = model_.split_of(model_.in_cell(mesh_, cell));
-  return split.energy(material_[cell]->relaxed_elasticity(), symmetric_part(histories.gradient(cell))).psi_plus;
-}
-
 CellHistories MaterialCells::virgin_histories() const {
   if (!any_) return {};
   std::vector<std::size_t> sizes;

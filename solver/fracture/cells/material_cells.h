@@ -51,8 +51,6 @@ class MaterialCells {
   /// Whether all that a cell stores drives its damage, but for what its energy split keeps; else what relaxed moduli
   /// store (PronyDrive).
   bool all_drives(Index cell) const;
-  /// What of the driving energy relaxed moduli make at the mean strain [J/m^3].
-  double relaxed_energy(Index cell, const CellHistories& histories) const;
   CellHistories virgin_histories() const;
   std::vector<OutputHistory> output(const CellHistories& histories) const;
 

@@ -133,15 +133,14 @@ double SmallStiffness::driving_energy(Index cell, const CellMechanics& mechanics
   return driving_energy(cell, mechanics, materials_.energy(cell, state.histories), state);
 }
 
-// All that a cell stores may drive, over what damage leaves of it, but for what the split keeps. Otherwise relaxed
-// moduli do, and what else drives at the mean strain.
+// All that a cell stores may drive, over what damage leaves of it, but for what the split keeps. Otherwise what relaxed
+// moduli store does.
 double SmallStiffness::driving_energy(Index cell, const CellMechanics& mechanics, const MaterialEnergy& material,
                                       const FractureState& state) const {
   if (!drives_by_faces(cell)) return material.driving;
   const double g = factor(cell, seen(cell, state));
   const double of_part = mechanics.part_energy[cell];
-  if (!materials_.all_drives(cell))
-    return material.driving - materials_.relaxed_energy(cell, state.histories) + of_part;
+  if (!materials_.all_drives(cell)) return of_part;
   if (!(g > 0.0)) return material.driving;
   return std::max(stored_energy(cell, mechanics, material, g) / mesh_.cell_volume[cell] - of_part, 0.0) / g;
 }

@@ -9,8 +9,10 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
+#include <optional>
 #include <random>
 #include <string>
 
@@ -22,6 +24,19 @@ using testing::HasSubstr;
 
 /// What was measured in row i, with noise.
 using Measured = std::function<double(std::size_t i, double value)>;
+
+/// With even noise of this deviation; zero in the row that is dropped, if there is one.
+Measured record(double deviation, std::optional<std::size_t> dropped = std::nullopt) {
+  return [dropped, engine = std::mt19937(3), normal = std::normal_distribution<double>(0.0, deviation)](
+             std::size_t i, double value) mutable { return i == dropped ? 0.0 : value + normal(engine); };
+}
+
+/// Of all estimates.
+double widest_of(const json& found) {
+  double widest = 1.0;
+  for (const json& p : found["parameters"]) widest = std::max(widest, p.value("widened_by", 1.0));
+  return widest;
+}
 
 json fitted(const TemporaryCase& directory) {
   const Outcome outcome = run({"fit", directory.path().string(), "--quiet"});
@@ -56,11 +71,7 @@ json relaxation_fitted(const Measured& measured) {
 }
 
 TEST(RecordDoubts, ADroppedRowOfARelaxationIsNamed) {
-  const auto record = [](std::size_t dropped) {
-    return [dropped, engine = std::mt19937(3), normal = std::normal_distribution<double>(0.0, 500.0)](
-               std::size_t i, double value) mutable { return i == dropped ? 0.0 : value + normal(engine); };
-  };
-  const json whole = relaxation_fitted(record(1000)), lacking = relaxation_fitted(record(80));
+  const json whole = relaxation_fitted(record(500.0)), lacking = relaxation_fitted(record(500.0, 80));
   EXPECT_EQ(whole["verdict"], "sound") << whole["reasons"];
   EXPECT_EQ(lacking["verdict"], "questionable") << lacking["reasons"];
   EXPECT_THAT(lacking["reasons"].dump(), HasSubstr("the row of relaxation with a stress of 0 Pa at 396.7 ms lies "));
@@ -72,8 +83,7 @@ TEST(RecordDoubts, NoiseOfARelaxationThatGrowsWithTheStressWidensIntervals) {
   const json found = relaxation_fitted([&](std::size_t, double value) { return value * (1.0 + normal(engine)); });
   EXPECT_EQ(found["verdict"], "sound") << found["reasons"];
   EXPECT_THAT(found["warnings"].dump(), HasSubstr("a relative_noise, stated, makes the estimates exacter"));
-  double widest = 1.0;
-  for (const json& p : found["parameters"]) widest = std::max(widest, p.value("widened_by", 1.0));
+  const double widest = widest_of(found);
   EXPECT_GT(widest, 1.25);
   EXPECT_LT(widest, 3.0);
 }
@@ -92,11 +102,7 @@ json cycles_fitted(const Measured& measured, const std::string& own_case = "") {
 }
 
 TEST(RecordDoubts, ADroppedRowOfCyclesIsNamed) {
-  const auto record = [](std::size_t dropped) {
-    return [dropped, engine = std::mt19937(5), normal = std::normal_distribution<double>(0.0, 5e5)](
-               std::size_t i, double value) mutable { return i == dropped ? 0.0 : value + normal(engine); };
-  };
-  const json whole = cycles_fitted(record(1000)), lacking = cycles_fitted(record(23));
+  const json whole = cycles_fitted(record(5e5)), lacking = cycles_fitted(record(5e5, 23));
   EXPECT_EQ(whole["verdict"], "sound") << whole["reasons"];
   EXPECT_EQ(lacking["verdict"], "questionable") << lacking["reasons"];
   EXPECT_THAT(lacking["reasons"].dump(), HasSubstr("the row of cycles 0.5 % with a stress of 0 Pa at 766.7 ms lies "));
@@ -113,10 +119,8 @@ TEST(RecordDoubts, NoiseOfCyclesThatGrowsWithTheStressWidensIntervals) {
   for (int k = 0; k < 10; ++k) {
     const json found = cycles_fitted(
         [&](std::size_t, double value) { return value + std::pow(value / large, 8) * normal(engine); }, of_hardening);
-    double widest = 1.0;
-    for (const json& p : found["parameters"]) widest = std::max(widest, p.value("widened_by", 1.0));
     const bool is_told = found["warnings"].dump().find("large values were measured") != std::string::npos;
-    EXPECT_EQ(is_told, found["verdict"] == "sound" && widest > 1.25) << found["verdict"] << found["warnings"];
+    EXPECT_EQ(is_told, found["verdict"] == "sound" && widest_of(found) > 1.25) << found["verdict"] << found["warnings"];
     told += is_told ? 1 : 0;
   }
   EXPECT_GE(told, 2) << "of 10";
