@@ -7,6 +7,7 @@ import { colour_of, element, save, shown } from "./elements.js";
 import { quantities_of } from "./quantities.js";
 import { Scene } from "./scene.js";
 import { Vibration } from "./vibration.js";
+import { first_view } from "./view.js";
 
 const broken = 0.95;
 
@@ -272,49 +273,8 @@ export class Body {
 
   /** Looks at the cut, or at a plate from above. */
   home() {
-    const last = this.data.frames.length - 1;
-    const moved = this.moves.map((axis, c) => {
-      let low = this.lower[c];
-      let high = this.upper[c];
-      for (let i = 0; i < axis[last].length; ++i) {
-        const v = this.places[c][i] + this.warp * axis[last][i];
-        if (v < low) low = v;
-        if (v > high) high = v;
-      }
-      return [low, high];
-    });
-    const middle = moved.map(([low, high]) => (low + high) / 2);
-    const is_thin = this.size[2] < 0.3 * Math.min(this.size[0], this.size[1]);
-    let direction =
-      this.cut.axis === 0
-        ? [0.86, -0.42, 0.28]
-        : this.cut.axis === 2 || (this.cut.axis < 0 && is_thin)
-          ? [0.4, -0.5, 0.77]
-          : [0.42, -0.86, 0.28];
-    let up = [0, 0, 1];
-    if (this.is_flat) {
-      direction = [
-        [1, 0, 0],
-        [0, -1, 0],
-        [0, 0, 1],
-      ][this.data.flat_axis];
-      up = this.data.flat_axis === 2 ? [0, 1, 0] : [0, 0, 1];
-    }
-    const right = [
-      direction[1] * up[2] - direction[2] * up[1],
-      direction[2] * up[0] - direction[0] * up[2],
-      direction[0] * up[1] - direction[1] * up[0],
-    ];
-    const half = moved.map(([low, high]) => (high - low) / 2);
-    const reach = (axis) => Math.abs(axis[0]) * half[0] + Math.abs(axis[1]) * half[1] + Math.abs(axis[2]) * half[2];
-    const { width, height } = this.holder.getBoundingClientRect();
-    const norm = Math.hypot(...right);
-    const above = [0, 1, 2].map(
-      (i) => up[i] - direction[i] * (up[0] * direction[0] + up[1] * direction[1] + up[2] * direction[2]),
-    );
-    const fit =
-      1.08 * Math.max(reach(above) / Math.hypot(...above), (reach(right) / norm) * (height / Math.max(1, width)));
-    this.scene.look(middle, direction, up, 4 * this.length, fit);
+    const { middle, direction, up, seen } = first_view(this, this.holder.getBoundingClientRect());
+    this.scene.look(middle, direction, up, 4 * this.length, seen);
     this.draw();
   }
 

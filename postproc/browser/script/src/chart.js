@@ -1,7 +1,7 @@
 // Charts of any curves, also such that run back and forth, drawn by uPlot: zoom by dragging, values under the pointer.
 import uPlot from "uplot";
-import { colour_of, element, file_name, is_dark, on_size, save, shown } from "./elements.js";
-import { series_colours } from "./colours.js";
+import { colour_of, element, file_name, on_size, save, shown } from "./elements.js";
+import { draw_series, key_of, seen_series } from "./series.js";
 
 const height_of = (width) => Math.round(Math.min(460, Math.max(240, 0.6 * width)));
 
@@ -33,67 +33,6 @@ function extent_of(chart, axis) {
   return [given.from ?? least, given.to ?? most];
 }
 
-const steps_of_dash = [8, 5];
-
-function colour_of_series(series) {
-  const list = series_colours[is_dark() ? "dark" : "light"];
-  return list[(series.colour ?? 0) % list.length];
-}
-
-function draw_series(series) {
-  return (u, index) => {
-    uPlot.orient(u, index, (_, xs, ys, scale_x, scale_y, to_x, to_y, left, top, wide, high) => {
-      const { ctx } = u;
-      const x = (i) => to_x(xs[i], scale_x, wide, left);
-      const y = (i, values = ys) => to_y(values[i], scale_y, high, top);
-      const drawable = (i) =>
-        ys[i] !== null && xs[i] !== null && (scale_x.distr !== 3 || xs[i] > 0) && (scale_y.distr !== 3 || ys[i] > 0);
-      ctx.save();
-      ctx.beginPath();
-      ctx.rect(left, top, wide, high);
-      ctx.clip();
-      ctx.strokeStyle = ctx.fillStyle = colour_of_series(series);
-      ctx.lineWidth = 2 * uPlot.pxRatio;
-      const trace = () => {
-        let pen = false;
-        for (let i = 0; i < xs.length; ++i) {
-          if (!drawable(i)) pen = false;
-          else {
-            if (pen) ctx.lineTo(x(i), y(i));
-            else ctx.moveTo(x(i), y(i));
-            pen = true;
-          }
-        }
-      };
-      ctx.beginPath();
-      if (series.style === "band") {
-        ctx.globalAlpha = 0.25;
-        for (let i = 0; i < xs.length; ++i) ctx.lineTo(x(i), y(i));
-        for (let i = xs.length - 1; i >= 0; --i) ctx.lineTo(x(i), y(i, series.upper));
-        ctx.fill();
-      } else {
-        if (series.style === "dashed") ctx.setLineDash(steps_of_dash.map((d) => d * uPlot.pxRatio));
-        if (series.style !== "points") {
-          trace();
-          ctx.stroke();
-        }
-        if (series.style === "points" || (series.style === "line_with_points" && xs.length < 400)) {
-          const r = (xs.length < 100 ? 3 : 2) * uPlot.pxRatio;
-          ctx.beginPath();
-          for (let i = 0; i < xs.length; ++i)
-            if (drawable(i)) {
-              ctx.moveTo(x(i) + r, y(i));
-              ctx.arc(x(i), y(i), r, 0, 2 * Math.PI);
-            }
-          ctx.fill();
-        }
-      }
-      ctx.restore();
-    });
-    return null;
-  };
-}
-
 /** Of a logarithmic axis: powers of ten, and 2 and 5 times these where there are few. */
 const with_label = (name) => (u, ticks) => {
   const { min, max } = u.scales[name];
@@ -111,7 +50,7 @@ function tick_words(value, step) {
   return digits > 4 && digits < 15 && plain ? String(Number(value.toPrecision(digits))) : shown(value);
 }
 
-function options_of(chart, width, hooks) {
+function options_of(chart, width, seen, hooks) {
   const scale = (axis) => ({
     time: false,
     distr: chart[axis].logarithmic ? 3 : 1,
@@ -139,13 +78,13 @@ function options_of(chart, width, hooks) {
     cursor: { drag: { x: true, y: true, uni: 20 }, points: { show: false }, dataIdx: () => null },
     series: [
       {},
-      ...chart.series.map((series) => ({
+      ...chart.series.map((series, s) => ({
         label: series.label,
         facets: [
           { scale: "x", auto: false },
           { scale: "y", auto: false },
         ],
-        paths: draw_series(series),
+        paths: draw_series(series, s, seen),
       })),
     ],
     hooks,
@@ -153,12 +92,12 @@ function options_of(chart, width, hooks) {
 }
 
 /** The point that is nearest to the pointer, within reach. */
-function nearest(u, chart, reach = 40) {
+function nearest(u, chart, seen, reach = 40) {
   const { left, top } = u.cursor;
   let found = null;
   let best = reach * reach;
   chart.series.forEach((series, s) => {
-    if (series.style === "band") return;
+    if (series.style === "band" || seen.hidden.has(s)) return;
     for (let i = 0; i < series.x.length; ++i) {
       if (series.x[i] === null || series.y[i] === null) continue;
       const dx = u.valToPos(series.x[i], "x") - left;
@@ -171,27 +110,6 @@ function nearest(u, chart, reach = 40) {
     }
   });
   return found;
-}
-
-function key_of(chart) {
-  const named = chart.series.filter((series) => series.label);
-  if (named.length === 0) return null;
-  const mark = (series) => {
-    const svg = document.createElementNS("http://www.w3.org/2000/svg", "svg");
-    const line = document.createElementNS("http://www.w3.org/2000/svg", series.style === "points" ? "circle" : "line");
-    svg.setAttribute("width", 26);
-    svg.setAttribute("height", 12);
-    const set = (values) => Object.entries(values).forEach(([k, v]) => line.setAttribute(k, v));
-    if (series.style === "points") set({ cx: 13, cy: 6, r: 4 });
-    else set({ x1: 0, x2: 26, y1: 6, y2: 6, "stroke-width": series.style === "band" ? 10 : 3 });
-    if (series.style === "dashed") set({ "stroke-dasharray": "7 4" });
-    if (series.style === "band") set({ "stroke-opacity": 0.3 });
-    svg.append(line);
-    svg.paint = () => line.setAttribute(series.style === "points" ? "fill" : "stroke", colour_of_series(series));
-    svg.paint();
-    return svg;
-  };
-  return element("div", { class: "key" }, ...named.map((series) => element("span", {}, mark(series), series.label)));
 }
 
 const quoted = (text) => (/[",\n]/.test(text) ? `"${text.replaceAll('"', '""')}"` : text);
@@ -225,7 +143,9 @@ export function chart_section(chart, link) {
     "aria-label": `${chart.caption}: ${chart.y.title} over ${chart.x.title}`,
   });
   const tip = element("div", { class: "tip", hidden: true });
-  const key = key_of(chart);
+  const seen = seen_series();
+  const redraw = () => plot?.redraw(false, false);
+  const key = key_of(chart, seen, redraw);
   const linked = link ? chart.series.findIndex((series) => series.of_steps) : -1;
   let plot = null;
   const whole = () => {
@@ -254,7 +174,7 @@ export function chart_section(chart, link) {
     ctx.restore();
   };
   const point_out = (u) => {
-    const at = u.cursor.left < 0 ? null : nearest(u, chart);
+    const at = u.cursor.left < 0 ? null : nearest(u, chart, seen);
     tip.hidden = at === null;
     if (!at) return;
     const series = chart.series[at.s];
@@ -271,7 +191,7 @@ export function chart_section(chart, link) {
     const width = Math.max(200, holder.clientWidth);
     plot?.destroy();
     const data = [null, ...chart.series.map((series) => [series.x, series.y])];
-    plot = new uPlot(options_of(chart, width, { draw: [mark], setCursor: [point_out] }), data, holder);
+    plot = new uPlot(options_of(chart, width, seen, { draw: [mark], setCursor: [point_out] }), data, holder);
     whole();
     plot.over.addEventListener("dblclick", whole);
     let down = null;
@@ -291,7 +211,6 @@ export function chart_section(chart, link) {
       link.go(row);
     });
   };
-  const redraw = () => plot?.redraw(false, false);
   const section = element(
     "section",
     {},

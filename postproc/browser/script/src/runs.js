@@ -1,26 +1,9 @@
 // The runs of a sweep: a table that sorts, their curves, any figure over any key, parallel coordinates. What the pointer
 // is on is the same run in all of them.
 import { chart_section } from "./chart.js";
-import { colour_maps } from "./colours.js";
+import { choice, ends_of, is_number, svg, title_of } from "./columns.js";
 import { element, save, shown } from "./elements.js";
-
-const svg = (tag, attributes = {}, ...children) => {
-  const made = document.createElementNS("http://www.w3.org/2000/svg", tag);
-  for (const [name, value] of Object.entries(attributes)) made.setAttribute(name, value);
-  made.append(...children);
-  return made;
-};
-
-const title_of = (column) => (column.unit ? `${column.words} [${column.unit}]` : column.words);
-const is_number = (v) => v !== null && Number.isFinite(v);
-
-/** Least and most of what is a number; a little apart where there is one value alone. */
-function ends_of(values) {
-  const numbers = values.filter(is_number);
-  if (numbers.length === 0) return [0, 1];
-  const [least, most] = [Math.min(...numbers), Math.max(...numbers)];
-  return least < most ? [least, most] : [least - (Math.abs(least) || 1), most + (Math.abs(most) || 1)];
-}
+import { parallel_section } from "./parallel.js";
 
 /** Also where some runs have no value. */
 const varies = (column) => new Set(column.values.map((value) => (is_number(value) ? value : null))).size > 1;
@@ -43,14 +26,6 @@ class Pointer {
     this.listeners.push((now) => made.classList.toggle("pointed", now === run));
     return made;
   }
-}
-
-/** viridis by the place of a value between the ends; grey for none. */
-function colour_of_value(value, [from, to]) {
-  if (!is_number(value)) return "#8a8a8a";
-  const k = 3 * Math.round(235 * ((value - from) / (to - from))); // its last yellow is too light on white
-  const table = colour_maps.viridis;
-  return `rgb(${table[k]},${table[k + 1]},${table[k + 2]})`;
 }
 
 function table_section(data, pointer) {
@@ -177,15 +152,6 @@ function curves_section(data, pointer) {
   );
 }
 
-function choice(columns, chosen, act) {
-  const select = element(
-    "select",
-    { onchange: () => act(columns[select.selectedIndex]) },
-    ...columns.map((column) => element("option", { selected: column === chosen }, column.words)),
-  );
-  return select;
-}
-
 /** Any figure over any column, in colours of a third. Repaints by making the chart anew. */
 function scatter_section(data, figures, keys) {
   let x = keys[0] ?? figures[0];
@@ -243,61 +209,6 @@ function scatter_section(data, figures, keys) {
   );
   draw();
   return section;
-}
-
-/** A line for each run across an axis for each column. */
-function parallel_section(data, columns, figures, pointer) {
-  const [step, high, top, bottom] = [118, 300, 44, 24];
-  const wide = step * columns.length;
-  const ends = columns.map((column) => ends_of(column.values));
-  const left = (k) => step * (k + 0.5);
-  const place = (k, value) => top + (high - top - bottom) * (1 - (value - ends[k][0]) / (ends[k][1] - ends[k][0]));
-  let by = figures[0] ?? columns[columns.length - 1];
-  const lines = data.labels.map((label, run) => {
-    let d = "";
-    let pen = "M";
-    columns.forEach((column, k) => {
-      if (!is_number(column.values[run])) return void (pen = "M");
-      d += `${pen}${left(k)} ${place(k, column.values[run]).toFixed(1)}`;
-      pen = "L";
-    });
-    return pointer.watch(svg("path", { d, class: "run" }, svg("title", {}, label)), run);
-  });
-  const paint = () => {
-    const range = ends_of(by.values);
-    lines.forEach((line, run) => line.setAttribute("stroke", colour_of_value(by.values[run], range)));
-  };
-  paint();
-  const axes = columns.map((column, k) => {
-    const text = (y, words, size) => svg("text", { x: left(k), y, "text-anchor": "middle", "font-size": size }, words);
-    const words = column.words.length > 20 ? `\u2026${column.words.slice(-19)}` : column.words;
-    return svg(
-      "g",
-      { class: "axis" },
-      svg("title", {}, title_of(column)),
-      svg("line", { x1: left(k), x2: left(k), y1: top, y2: high - bottom }),
-      text(14, words, 11.5),
-      text(29, column.unit ? `[${column.unit}]` : "", 11.5),
-      text(top - 3, shown(ends[k][1]), 11.5),
-      text(high - bottom + 14, shown(ends[k][0]), 11.5),
-    );
-  });
-  const drawn = svg("svg", { viewBox: `0 0 ${wide} ${high}`, role: "img", "aria-label": "parallel coordinates" });
-  drawn.append(...lines, ...axes);
-  drawn.style.minWidth = `${wide}px`;
-  drawn.style.maxHeight = "480px";
-  const select = choice(columns, by, (column) => ((by = column), paint()));
-  return element(
-    "section",
-    { class: "parallel" },
-    element(
-      "div",
-      { class: "head" },
-      element("h2", {}, "All columns, a line for each run"),
-      element("div", { class: "controls" }, element("label", {}, "colours by", select)),
-    ),
-    element("div", { class: "scrolls" }, drawn),
-  );
 }
 
 /** `data`: labels, notes, columns (words, unit, is_key, values), curve (titles x, y) and curves, or null. */
