@@ -14,6 +14,15 @@
 namespace pfdm {
 namespace {
 
+void refuse_keys_of_paths(const ConfigTable& root) {
+  constexpr std::string_view path = "[homogenization] path";
+  root.refuse_keys_beyond(composite_keys(), debonding_keys(), path);
+  if (root.has("materials"))
+    for (const auto& [name, material] : root.table("materials").entries())
+      material.table().refuse_keys_beyond(composite_material_keys(), material_keys(), path);
+  root.with_keys(composite_keys());
+}
+
 // After read_materials(), which says what keys there are.
 std::vector<CompositeMaterial> read_other_keys(const ConfigTable& root) {
   std::vector<CompositeMaterial> materials;
@@ -46,7 +55,7 @@ HomogenizationSettings read_settings(const ConfigTable& root) {
 
 HomogenizationCase read_homogenization_case(const ConfigTable& root, const std::filesystem::path& case_directory,
                                             MeshOf mesh) {
-  root.with_keys(composite_keys());
+  refuse_keys_of_paths(root);
   HomogenizationCase homogenization;
   homogenization.title = root.line("title");
   homogenization.mesh = read_mesh_recipe(root.table("mesh"), {.case_directory = case_directory, .ell = {}});

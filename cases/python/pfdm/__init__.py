@@ -19,6 +19,7 @@ and laws as functions: MassMaterial, Endochronic, InterfaceLaw, softening.
 from .case import Case, Check, specimen
 from .endochronic import Endochronic
 from .errors import ComputationError, Error, InputError, MissingResult
+from .fit_results import Fit
 from .fracture_run import FractureRun, State
 from .homogenization import homogenize
 from .interface_law import InterfaceLaw, softening, softening_laws
@@ -28,7 +29,7 @@ from .native import set_threads
 from .new_case import new_case
 from .own_laws import (HyperelasticResponse, InterfaceResponse, MaterialResponse, OwnHyperelastic, OwnInterfaceLaw,
                        OwnMaterial)
-from .results import Fit, Frame, Results, open  # noqa: A004
+from .results import Frame, Results, open  # noqa: A004
 from .study import sweep
 from .vtu import Grid
 

@@ -10,8 +10,9 @@ from pathlib import Path
 from typing import Any
 
 from .errors import InputError
+from .fit_results import Fit
 from .program import Step, call
-from .results import Fit, Results
+from .results import Results
 from .toml_text import leaves_of, set_at, toml_piece, value_at
 
 

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 from .case import Case
 from .errors import InputError
 from .native import extension, place_of, toml_of
-from .results import table_of
+from .tables import table_of
 
 if TYPE_CHECKING:
     import _pfdm

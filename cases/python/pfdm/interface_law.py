@@ -9,7 +9,7 @@ import numpy
 from numpy.typing import ArrayLike, NDArray
 
 from .native import extension
-from .results import table_of
+from .tables import table_of
 from .toml_text import toml_piece
 
 if TYPE_CHECKING:

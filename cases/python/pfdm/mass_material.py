@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from .case import Case
 from .native import extension, place_of, toml_of
-from .results import table_of
+from .tables import table_of
 from .toml_text import toml_piece
 
 if TYPE_CHECKING:

@@ -1,9 +1,10 @@
-// A case of kind "homogenize": results whose moduli are known in closed form, their numbers in other cases, scatter by
-// a sweep, and what is refused.
+// A case of kind "homogenize": results whose moduli are known in closed form, their numbers in other cases, and scatter
+// by a sweep.
 
 #include "postproc/fields/pvd.h"
 #include "postproc/fields/stored_cells.h"
 #include "postproc/files/csv_table.h"
+#include "tests/cases/kinds/laminate.h"
 #include "tests/cases/page_data.h"
 #include "tests/cases/temporary_case.h"
 
@@ -18,35 +19,6 @@ namespace pfdm::this_file {
 namespace {
 
 using ::testing::HasSubstr;
-
-// Half a millimetre of each of two layers normal to z.
-std::string laminate() {
-  return R"(kind = "homogenize"
-title = "two layers"
-[mesh]
-generator = "box_hexes"
-x = [{ length = "1 mm", cells = 3 }]
-y = [{ length = "1 mm", cells = 2 }]
-z = [{ length = "1 mm", cells = 4 }]
-region = "soft"
-regions = [{ name = "stiff", lower = ["0 mm", "0 mm", "0.5 mm"], upper = ["1 mm", "1 mm", "1 mm"] }]
-[materials.rubber]
-regions = ["soft"]
-young_modulus = "10 MPa"
-poisson_ratio = 0.4
-density = "1000 kg/m^3"
-loss_factor = 0.2
-[materials.steel]
-regions = ["stiff"]
-young_modulus = "200 GPa"
-poisson_ratio = 0.3
-density = "7800 kg/m^3"
-[homogenization]
-boundary = "periodic"
-[solver]
-tolerance = 1e-12
-)";
-}
 
 nlohmann::json results_of(const TemporaryCase& directory) {
   return nlohmann::json::parse(content_of(directory.results() / "homogenized.json"));
@@ -271,32 +243,6 @@ TEST(HomogenizationCase, OtherCasesTakeItsNumbers) {
     EXPECT_THAT(outcome.err, HasSubstr(said));
   }
 }
-
-class BadHomogenization : public testing::TestWithParam<BadInput> {};
-
-TEST_P(BadHomogenization, IsRefused) {
-  const TemporaryCase directory(replaced(laminate(), GetParam().good, GetParam().bad));
-  expect_refused(directory, GetParam());
-}
-
-const BadInput bad_inputs[] = {
-    {"unknown_boundary",
-     "boundary = \"periodic\"",
-     "boundary = \"periodik\"",
-     {"[homogenization] boundary: \"periodik\" is not", "did you mean \"periodic\"?"}},
-    {"damage", "loss_factor = 0.2", "toughness = \"10 J/m^2\"", {"[materials.rubber] \"toughness\" is not known here"}},
-    {"negative_loss", "loss_factor = 0.2", "loss_factor = -0.1", {"must be zero or positive"}},
-    {"other_table", "[solver]", "[fracture]\nsplit = \"none\"\n[solver]", {"\"fracture\" is not known here"}},
-    {"no_such_region", "regions = [\"stiff\"]", "regions = [\"hard\"]", {"\"hard\" is not a region of the mesh"}},
-    {"no_density", "density = \"1000 kg/m^3\"", "density = 1000", {"[materials.rubber] density", "has no unit"}},
-    {"not_a_box",
-     "region = \"soft\"\n",
-     "region = \"soft\"\nholes = [{ name = \"bite\", lower = [\"0 mm\", \"0 mm\", \"0 mm\"], upper = [\"0.5 mm\", \"1 "
-     "mm\", \"0.5 mm\"] }]\n",
-     {"cover", "% of that side of the box"}},
-};
-INSTANTIATE_TEST_SUITE_P(All, BadHomogenization, testing::ValuesIn(bad_inputs),
-                         [](const auto& input) { return input.param.name; });
 
 }  // namespace
 }  // namespace pfdm::this_file

@@ -69,6 +69,17 @@ ConfigTable ConfigTable::with_keys(const KeyTable& rows, std::optional<std::stri
   return found ? with_keys(names) : *this;
 }
 
+void ConfigTable::refuse_keys_beyond(const KeyTable& there, const KeyTable& with, std::string_view need) const {
+  const auto has = [](const KeyTable& rows, const std::string& name) {
+    return std::ranges::find(rows.keys, name, &Key::name) != rows.keys.end();
+  };
+  for (const auto& [name, value] : content())
+    if (has(with, name) && !has(there, name))
+      throw source_->error_at(value.key_line,
+                              fmt::format("{}\"{}\" is not known here: it goes with {}, which is not given",
+                                          ConfigSource::place_of_table(path_), name, need));
+}
+
 std::vector<const Key*> ConfigTable::rows() const { return source_->opened[&content()].rows; }
 
 const KeyType* ConfigTable::type_of(std::string_view key) const {

@@ -42,6 +42,9 @@ class ConfigTable {
   bool has(std::string_view key) const;
   ConfigValue at(std::string_view key) const;
   std::optional<ConfigValue> find(std::string_view key) const;
+  /// Refuses the keys that `with` has beyond `there`: they go with what `need` names, which is not given.
+  void refuse_keys_beyond(const KeyTable& there, const KeyTable& with, std::string_view need) const;
+
   /// All entries, for tables whose keys are names that the user chooses.
   std::vector<std::pair<std::string, ConfigValue>> entries() const;
 
