@@ -30,26 +30,49 @@ struct RitzPairs {
   bool real = true;
 };
 
+// K is symmetric but for errors of the discretisation, and modes of like frequency may then be a conjugate pair of
+// eigenvalues. Their real and imaginary parts span the two modes, which are those of the symmetric part.
+void add_conjugate_pair(const Eigen::MatrixXd& H, const Eigen::VectorXcd& vector, RitzPairs& pairs) {
+  Eigen::MatrixXd basis(H.rows(), 2);
+  basis.col(0) = vector.real().normalized();
+  basis.col(1) = vector.imag() - basis.col(0).dot(vector.imag()) * basis.col(0);
+  basis.col(1).normalize();
+  const Eigen::Matrix2d within = basis.transpose() * H * basis;
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> of_both(0.5 * (within + within.transpose()));
+  for (const Eigen::Index k : {1, 0}) {
+    pairs.value.push_back(of_both.eigenvalues()[k]);
+    pairs.of.emplace_back(basis * of_both.eigenvectors().col(k));
+  }
+}
+
 RitzPairs ritz_pairs(const KrylovSpace& space, int count) {
-  const Eigen::EigenSolver<Eigen::MatrixXd> solver(space.projection());
+  constexpr double rounding = 1e-6, bearable = 0.1;  // of a pair's value: frequencies are off by at most half of it
+  const Eigen::MatrixXd H = space.projection();
+  const Eigen::EigenSolver<Eigen::MatrixXd> solver(H);
   const Eigen::VectorXcd& values = solver.eigenvalues();
   std::vector<Eigen::Index> order(values.size());
   std::iota(order.begin(), order.end(), 0);
-  std::ranges::sort(order, [&](Eigen::Index a, Eigen::Index b) { return values[a].real() > values[b].real(); });
+  std::ranges::stable_sort(order, [&](Eigen::Index a, Eigen::Index b) { return values[a].real() > values[b].real(); });
   RitzPairs pairs;
-  for (int k = 0; k < count; ++k) {
+  for (std::size_t k = 0; count_of(pairs.value) < count && k < order.size(); ++k) {
     const Eigen::Index i = order[k];
     Eigen::VectorXcd vector = solver.eigenvectors().col(i);
     Eigen::Index largest = 0;
     vector.cwiseAbs().maxCoeff(&largest);
     vector /= vector[largest];
-    const double value = values[i].real();
-    pairs.real = pairs.real && value > 0.0 && std::abs(values[i].imag()) <= 1e-6 * value;
+    const double value = values[i].real(), imaginary = std::abs(values[i].imag());
+    pairs.real = pairs.real && value > 0.0 && imaginary <= bearable * value;
     pairs.residual =
         std::max(pairs.residual, space.remainder() * std::abs(vector[vector.size() - 1]) / (value * vector.norm()));
+    if (imaginary > rounding * value && k + 1 < order.size()) {
+      add_conjugate_pair(H, vector, pairs);
+      ++k;  // the other of the pair, which follows
+      continue;
+    }
     pairs.value.push_back(value);
     pairs.of.emplace_back(vector.real());
   }
+  pairs.value.resize(count), pairs.of.resize(count);
   return pairs;
 }
 
@@ -111,7 +134,10 @@ std::vector<Mode> lowest_modes(const VibratingBody& body, int count, double tole
     if (space.n_projected() < n_elastic || (goes_on && space.n_projected() % 5 != 0)) continue;
     const RitzPairs pairs = ritz_pairs(space, n_elastic);
     if (goes_on && pairs.residual > tolerance) continue;
-    if (pairs.residual > tolerance || !pairs.real) break;
+    if (pairs.residual > tolerance) break;
+    if (!pairs.real)
+      throw ComputationError(
+          fmt::format("the lowest {} modes cannot be told apart on this mesh; shorter cells help ([mesh])", count));
     for (std::size_t k = 0; k < pairs.value.size(); ++k)
       modes.push_back(mode_of(body, omega_of(body, pairs.value[k]),
                               with_rigid_part(body, rigid, pairs.value[k], space.combined(pairs.of[k]))));

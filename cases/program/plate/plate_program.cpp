@@ -6,13 +6,13 @@
 #include "cases/program/plate/plate_keys.h"
 #include "cases/program/plate/plate_report.h"
 #include "cases/program/plate/plate_run.h"
+#include "cases/program/plate/plate_words.h"
 #include "cases/program/session/report_parts.h"
 #include "cases/program/session/terminal/stop_signal.h"
 #include "cases/program/session/whole_run.h"
 #include "mesh/quality.h"
 #include "postproc/curves/summary.h"
 #include "postproc/files/folder_lock.h"
-#include "solver/momentum/bending/bending_layers.h"
 
 #include <fmt/format.h>
 
@@ -26,20 +26,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::string_view no_part_of_the_run[] = {"fit", "sweep"};
-
-/// What is left of the error of frequencies in layers of hexahedra, as measured (solver/dynamics/README.md): one layer
-/// does not bend, and pressure unknowns soften bending. Empty without layers, and where they are right.
-std::optional<std::string> words_on_layers(const Mesh& mesh, const Unknowns& unknowns) {
-  const auto worst = largest_bending_error(mesh, unknowns);
-  if (!worst) return std::nullopt;
-  if (worst->layers.n < 2.0)
-    return "1 layer of hexahedra: it hardly resists bending, and frequencies are wrong. Take four layers ([mesh])";
-  if (unknowns.pressure_cells.empty()) return std::nullopt;
-  return fmt::format(
-      "{:g} layers of hexahedra at nu = {:g}: where cells carry a pressure, above nu = 0.47, frequencies of modes that "
-      "bend the body are 2 to 3 % too low with five to ten layers. Take ten ([mesh])",
-      worst->layers.n, worst->poisson_ratio);
-}
 
 void check(const PlateProgram& program, Session& session) {
   const PlateCase& c = program.parsed;
@@ -125,6 +111,7 @@ void compute(const PlateProgram& program, Session& session, const fs::path& fold
     log.say(fmt::format("mode {}: {:.5g} Hz, damping ratio {:.3g}, effective mass {:.1f} %", k + 1,
                         resonances[k].frequency, 0.5 * resonances[k].loss_factor,
                         100.0 * resonances[k].effective_mass.dot(c.direction)));
+  if (const auto words = words_on_half_waves(run, resonances, c.to)) log.warn(*words);
   write_response(folder, c, run.response());
   summary.figures = {{"cells", mesh.n_cells()},
                      {"mass_kg", run.body().total_mass()},

@@ -24,6 +24,7 @@ class PlateRun {
   void take(const PlateCase& c);
 
   const VibratingBody& body() const { return body_; }
+  const std::vector<Mode>& modes() const { return modes_; }
   std::vector<Resonance> resonances(double temperature) const;
   ResponseTable response() const;
   /// H1 of a place at the temperature of the start.

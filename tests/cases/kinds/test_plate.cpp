@@ -22,8 +22,6 @@ namespace {
 
 using nlohmann::json;
 
-// Insulated, the rise is m_eff/m A^2 t/(2 eta omega_1 c_p) of the first mode, to within what the other modes add, and
-// uniform, as the conductivity is large.
 TEST(Plate, SaysWhatItsLayersDoToItsFrequencies) {
   const auto words_of = [](const std::string& text) {
     const TemporaryCase directory(text);
@@ -39,6 +37,21 @@ TEST(Plate, SaysWhatItsLayersDoToItsFrequencies) {
               testing::HasSubstr("6 layers of hexahedra at nu = 0.49: where cells carry a pressure"));
 }
 
+TEST(Plate, SaysWhichModesHaveFewCells) {
+  const auto said = [](const std::string& text) {
+    const TemporaryCase directory(text);
+    const Outcome outcome = run({"run", directory.path().string()});
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    return outcome.out;
+  };
+  const std::string cold = small_plate().substr(0, small_plate().find("[heating]"));
+  EXPECT_THAT(said(replaced(cold, "modes = 3", "modes = 2")), testing::Not(testing::HasSubstr("half wave")));
+  EXPECT_THAT(said(replaced(cold, "cells = 20", "cells = 6")),
+              testing::HasSubstr("cells to a half wave along x: frequencies of such modes are up to"));
+}
+
+// Insulated, the rise is m_eff/m A^2 t/(2 eta omega_1 c_p) of the first mode, to within what the other modes add, and
+// uniform, as the conductivity is large.
 TEST(Plate, HeatsUpAtItsResonanceAsTheClosedFormSays) {
   const TemporaryCase directory(small_plate());
   const json summary = summary_of(directory);
