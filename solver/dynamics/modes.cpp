@@ -46,7 +46,7 @@ void add_conjugate_pair(const Eigen::MatrixXd& H, const Eigen::VectorXcd& vector
 }
 
 RitzPairs ritz_pairs(const KrylovSpace& space, int count) {
-  constexpr double rounding = 1e-6, bearable = 0.1;  // of a pair's value: frequencies are off by at most half of it
+  constexpr double rounding = 1e-6, bearable = 0.2;  // of a pair's value: frequencies are off by at most half of it
   const Eigen::MatrixXd H = space.projection();
   const Eigen::EigenSolver<Eigen::MatrixXd> solver(H);
   const Eigen::VectorXcd& values = solver.eigenvalues();
