@@ -189,6 +189,19 @@ values = [1, 2, 3]
 )";
 }
 
+TEST(HomogenizationCase, TellsOfCoarseMeshesByTheBounds) {
+  const auto said = [](const std::string& text) {
+    const TemporaryCase directory(text);
+    const Outcome outcome = run({"run", directory.path().string()});
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    return outcome.out;
+  };
+  const auto tells = HasSubstr("% below Hashin and Shtrikman's lower bound");
+  EXPECT_THAT(said(beads()), tells);
+  EXPECT_THAT(said(replaced(beads(), "uniform displacement", "uniform traction")), testing::Not(tells));
+  EXPECT_THAT(said(laminate()), testing::Not(tells));
+}
+
 TEST(HomogenizationCase, SweepOverSeedsHasMeanAndDeviation) {
   const TemporaryCase directory(beads());
   const Outcome outcome = run({"sweep", directory.path().string(), "--threads", "2"});
