@@ -118,7 +118,7 @@ MaterialEnergy MaterialCells::energy(Index cell, const CellHistories& histories)
                                                   model_.split_of(model_.in_cell(mesh_, cell)));
   if (!memory_[cell]) return energy;
   const std::span<const double> gaps = gap_numbers(cell, histories);
-  (all_drives(cell) ? energy.driving : energy.idle) += memory_[cell]->in_branches(gaps);
+  if (!all_drives(cell)) energy.idle += memory_[cell]->in_branches(gaps);
   energy.locked += GapMemory::locked(gaps);
   energy.dissipated += GapMemory::dissipated(gaps);
   return energy;

@@ -43,8 +43,8 @@ class MaterialCells {
   IsotropicElasticity beyond_elasticity(Index cell) const;
   /// Memory of the cells of relaxing materials, with room for the stress of every cell.
   HistoryStress history_stress(const CellHistories& histories) const;
-  /// Energies of the undamaged material, with those of the gaps at its faces. What relaxed moduli bear at gaps is not
-  /// in them: it is in CellMechanics::part_energy of these moduli.
+  /// Energies of the undamaged material, with those of the gaps at its faces. The driving one is of the mean strain
+  /// alone: SmallStiffness has it from what the faces store (CellMechanics::part_energy).
   MaterialEnergy energy(Index cell, const CellHistories& histories) const;
   /// Elasticity once all has relaxed in time; of other materials that which they have.
   IsotropicElasticity relaxed_elasticity(Index cell) const { return material_[cell]->relaxed_elasticity(); }

@@ -127,6 +127,8 @@ void RelaxingGaps::tell(Index cell, std::span<const double> numbers, At when, Hi
   }
 }
 
+double RelaxingGaps::in_branches(std::span<const double> numbers) const { return numbers[branch_energy]; }
+
 void RelaxingGaps::hold(Index cell, std::span<double> numbers) const {
   const Kind& by = kind(cell);
   const std::vector<PronyDecay>&shear = moment(cell).shear, &bulk = moment(cell).bulk;
