@@ -13,7 +13,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
 namespace pfdm {
 namespace {
@@ -44,21 +43,18 @@ std::vector<FittedRecord> records_of(const EndochronicFit& fit, const Endochroni
   const bool known = noise_is_known(fit.experiments);
   std::vector<FittedRecord> records;
   for (const MaterialExperiment& test : fit.experiments) {
-    const auto fitted = respond(law, test, fit.settings.control);
+    const auto answered = respond(law, test, fit.settings.control).value();
     const double rms = rms_measured(fit.experiments, test.follows_stress);
-    for (std::size_t c = 0; fitted && c < test.channels.size(); ++c) {
-      const MaterialExperiment::Channel& channel = test.channels[c];
-      FittedRecord record{.row = [&test, &channel](std::size_t i) {
-        return fmt::format("the row of {} with a {} of {} at {}", test.name, test.follows_stress ? "strain" : "stress",
-                           quantity_text(channel.values[i], test.follows_stress ? "1" : "Pa", 4),
-                           quantity_text(test.loading.times[i], "s", 4));
-      }};
-      for (std::size_t i = 0; i < channel.values.size(); ++i) {
-        record.measured.push_back(channel.values[i] / (known ? channel.noise : rms));
-        record.size.push_back(std::abs((*fitted)[c][i]) / rms);
-      }
-      records.push_back(std::move(record));
-    }
+    for (std::size_t c = 0; c < test.channels.size(); ++c)
+      records.push_back(
+          record_of({.test = test.name,
+                     .quantity = test.follows_stress ? "strain" : "stress",
+                     .unit = test.follows_stress ? "1" : "Pa",
+                     .measured = test.channels[c].values,
+                     .answered = answered[c],
+                     .usual = rms,
+                     .deviation = [by = known ? test.channels[c].noise : rms](std::size_t) { return by; },
+                     .at = [&test](std::size_t i) { return quantity_text(test.loading.times[i], "s", 4); }}));
   }
   return records;
 }

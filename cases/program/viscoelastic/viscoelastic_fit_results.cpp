@@ -65,26 +65,27 @@ std::vector<ResidualSeries> series_of_tests(const ViscoelasticFitCase& fit, cons
   return result;
 }
 
+std::string place_of_row(const ViscoelasticExperiment& test, std::size_t i) {
+  if (!test.is_frequency_sweep()) return quantity_text(test.times[i], "s", 4);
+  return quantity_text(test.angular_frequencies[i] / (2.0 * std::numbers::pi), "Hz", 4);
+}
+
 std::vector<FittedRecord> records_of_tests(const ViscoelasticFitCase& fit, const ViscoelasticIdentification& found) {
   std::vector<FittedRecord> records;
-  auto deviation = found.deviations.begin();
+  const double* deviations = found.deviations.data();  // of all rows of all columns
   for (const ViscoelasticExperiment& test : fit.experiments) {
-    const auto fitted = respond(found.fit.law, test);
+    const auto answered = respond(found.fit.law, test);
     for (std::size_t c = 0; c < test.channels.size(); ++c) {
       const ViscoelasticExperiment::Channel& channel = test.channels[c];
-      const double rms = rms_of(channel.values);
-      FittedRecord record{.row = [&test, &channel](std::size_t i) {
-        const std::string at = test.is_frequency_sweep()
-                                   ? quantity_text(test.angular_frequencies[i] / (2.0 * std::numbers::pi), "Hz", 4)
-                                   : quantity_text(test.times[i], "s", 4);
-        return fmt::format("the row of {} with a {} of {} at {}", test.name, name_of(channel.quantity),
-                           quantity_text(channel.values[i], std::string(unit_of(channel.quantity)), 4), at);
-      }};
-      for (std::size_t i = 0; i < channel.values.size(); ++i, ++deviation) {
-        record.measured.push_back(channel.values[i] / *deviation);
-        record.size.push_back(std::abs(fitted[c][i]) / rms);
-      }
-      records.push_back(std::move(record));
+      records.push_back(record_of({.test = test.name,
+                                   .quantity = name_of(channel.quantity),
+                                   .unit = unit_of(channel.quantity),
+                                   .measured = channel.values,
+                                   .answered = answered[c],
+                                   .usual = rms_of(channel.values),
+                                   .deviation = [deviations](std::size_t i) { return deviations[i]; },
+                                   .at = [&test](std::size_t i) { return place_of_row(test, i); }}));
+      deviations += channel.values.size();
     }
   }
   return records;

@@ -1,10 +1,13 @@
 #include "cases/program/studies/fit/material_tests.h"
 
+#include "physics/quantity_text.h"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 
 namespace pfdm {
 
@@ -56,6 +59,19 @@ std::vector<FitParameter> read_fit_bounds(
     limits.push_back({.name = key, .unit = "", .first = lower, .lower = lower, .upper = upper});
   }
   return limits;
+}
+
+FittedRecord record_of(const AnsweredColumn& column) {
+  FittedRecord record{.row = [test = column.test, quantity = column.quantity, unit = column.unit,
+                              measured = column.measured, at = column.at](std::size_t i) {
+    return fmt::format("the row of {} with a {} of {} at {}", test, quantity, quantity_text(measured[i], unit, 4),
+                       at(i));
+  }};
+  for (std::size_t i = 0; i < column.measured.size(); ++i) {
+    record.measured.push_back(column.measured[i] / column.deviation(i));
+    record.size.push_back(std::abs(column.answered[i]) / column.usual);
+  }
+  return record;
 }
 
 }  // namespace pfdm
