@@ -2,6 +2,7 @@
 
 #include "physics/angle.h"
 #include "physics/error.h"
+#include "postproc/cohesive/flat_surface.h"
 #include "postproc/files/atomic_file.h"
 #include "postproc/files/csv_table.h"
 #include "postproc/files/json.h"
@@ -127,6 +128,7 @@ Json mean_to_json(const CohesiveResult& result) {
 Json surface_to_json(const CohesiveReport& report, std::size_t r) {
   const ColumnRecord& record = report.records[r];
   Json surface = {{"name", record.name}, {"kind", name_of(record.kind)}, {"law_is_given", record.is_cohesive}};
+  surface["is_flat"] = is_flat(record.kind, record.places);
   if (r < report.given.size() && report.given[r]) surface["given_law"] = to_json(*report.given[r]);
   surface["places"] = record.places.size();
   surface["never_damaged_places"] = n_never_damaged(record);

@@ -2,6 +2,7 @@
 
 #include "physics/angle.h"
 #include "postproc/cohesive/cohesive_law.h"
+#include "postproc/cohesive/flat_surface.h"
 #include "postproc/files/atomic_file.h"
 #include "postproc/files/json.h"
 
@@ -41,14 +42,7 @@ std::vector<const Column*> about_one_pole(const std::vector<const Column*>& colu
 FirstDebonding described(const ColumnSet& set, const std::vector<const Column*>& debonded, const Vector& axis,
                          Index step) {
   FirstDebonding first{.surface = set.name, .step = step};
-  constexpr double flat_share = 0.999;  // part of the areas that their sum as vectors comes to on a plane
-  double whole = 0.0;
-  Vector sum = Vector::Zero();
-  for (const Column& column : set.columns) {
-    whole += column.area;
-    sum += column.area * column.normal;
-  }
-  if (set.kind == SurfaceKind::plane || sum.norm() > flat_share * whole) return first;
+  if (is_flat(set.kind, set.columns)) return first;
   const std::vector<const Column*> cap = about_one_pole(debonded, axis);
   first.polar_from = std::numbers::pi;
   first.polar_to = 0.0;
@@ -56,6 +50,8 @@ FirstDebonding described(const ColumnSet& set, const std::vector<const Column*>&
     first.polar_from = std::min(first.polar_from, polar_angle(column->normal, axis));
     first.polar_to = std::max(first.polar_to, polar_angle(column->normal, axis));
   }
+  double whole = 0.0;
+  for (const Column& column : set.columns) whole += column.area;
   first.angle = cap_angle(area_of(cap), whole);
   return first;
 }

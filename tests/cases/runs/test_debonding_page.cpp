@@ -101,14 +101,22 @@ TEST(DebondingPage, GivesTheToughnessOfABandAsGivenAndAsItsCellsHaveIt) {
   EXPECT_EQ(table.rows[3][3], "no damage");
 }
 
+// A glued joint has no poles.
+TEST(DebondingPage, TellsNoPoleOfAFlatSurface) {
+  ColumnRecord record =
+      record_of({{{0, 0}, {0, 0}, {0, 0}}, {{2, 20}, {2, 20}, {2, 20}}, {{200, 0.1}, {200, 0.1}, {200, 0.1}}});
+  for (Place& place : record.places) place.normal = up, place.polar_angle = 0.0;
+  EXPECT_THAT(labels_of(law_chart(record, up)), ElementsAre("mean of all places"));
+}
+
 /// Of a surface with one law.
-std::string words_of_law(const std::string& law) {
+std::string words_of_law(const std::string& law, const std::string& is_flat = "") {
   const TemporaryCase results("");
-  results.write("cohesive.json",
-                R"({"surfaces": [{"name": "skin", "kind": "interface", "law_is_given": false, "laws": [{
+  results.write("cohesive.json", R"({"surfaces": [{"name": "skin", "kind": "interface", "law_is_given": false, )" +
+                                     is_flat + R"("laws": [{
       "polar_angle_from_deg": 165.0, "polar_angle_to_deg": 180.0, "strength_Pa": 2e7, "critical_separation_m": 4e-6,
       "surface_energy_J_per_m2": 300.0, )" +
-                    law + "}]}]}");
+                                     law + "}]}]}");
   const Bead bead;
   return what_happened(bead.fracture, bead.file, RunSummary(), results.path()).back();
 }
@@ -117,6 +125,8 @@ TEST(DebondingPage, SaysWhatIsNotKnownOfALaw) {
   EXPECT_THAT(words_of_law(R"("traced": true, "jump_at_step": null, "final_traction_Pa": 1e5)"),
               testing::AllOf(HasSubstr("law of \"skin\" at the lower pole: largest normal traction 20"),
                              testing::EndsWith("surface energy 300 J/m^2")));
+  EXPECT_THAT(words_of_law(R"("traced": true, "jump_at_step": null, "final_traction_Pa": 1e5)", R"("is_flat": true, )"),
+              HasSubstr("law of \"skin\": largest normal traction 20"));
   EXPECT_THAT(words_of_law(R"("traced": false, "jump_at_step": 8, "final_traction_Pa": 1e5)"),
               HasSubstr("; the traction falls within one step, so that how it softens is not known"));
   EXPECT_THAT(

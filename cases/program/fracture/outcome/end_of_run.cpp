@@ -118,9 +118,10 @@ std::string unknown_of_law(const nlohmann::ordered_json& law) {
                      shown_in({.si_unit = "Pa"}, last));
 }
 
-/// " at the lower pole", " at polar angles of 75 to 90 degrees"; nothing of a plane, whose law is that of all places.
+/// " at the lower pole", " at polar angles of 75 to 90 degrees"; nothing of a flat surface, whose law is that of all
+/// places.
 std::string place_of_law(const nlohmann::ordered_json& surface, const nlohmann::ordered_json& law, const Vector& axis) {
-  if (surface.at("kind") != "interface") return {};
+  if (surface.value("is_flat", surface.at("kind") != "interface")) return {};
   const double from = number_of(law.at("polar_angle_from_deg")), to = number_of(law.at("polar_angle_to_deg"));
   if (from == 0.0 || to == 180.0) return " at the " + name_of_pole(from == 0.0, axis);
   return fmt::format(" at polar angles of {:.0f} to {:.0f} degrees", from, to);

@@ -5,6 +5,7 @@
 #include "cases/program/session/report_parts.h"
 #include "physics/angle.h"
 #include "postproc/cohesive/cohesive_law.h"
+#include "postproc/cohesive/flat_surface.h"
 
 #include <fmt/format.h>
 
@@ -13,18 +14,6 @@
 
 namespace pfdm {
 namespace {
-
-/// The areas as vectors nearly sum up to their sum.
-bool is_flat(const ColumnRecord& record) {
-  constexpr double flat_share = 0.999;
-  double whole = 0.0;
-  Vector sum = Vector::Zero();
-  for (const Place& place : record.places) {
-    whole += place.area;
-    sum += place.area * place.normal;
-  }
-  return record.kind == SurfaceKind::plane || sum.norm() > flat_share * whole;
-}
 
 std::vector<double> in_degrees(std::vector<double> angles) {
   for (double& angle : angles) angle /= degree;
@@ -69,7 +58,7 @@ std::vector<PageBlock> debonding_charts(const FractureCase& fracture,
   const ColumnRecord* const beside =
       experiment && !experiment->angles.empty() && !records.empty() ? &measured_surface(*experiment, records) : nullptr;
   for (const ColumnRecord& record : records)
-    if (&record != beside && !is_flat(record) && record.steps.size() == curve.size())
+    if (&record != beside && !is_flat(record.kind, record.places) && record.steps.size() == curve.size())
       charts.emplace_back(debonding_chart(record, fracture.cohesive.axis, curve, {}));
   return charts;
 }

@@ -4,6 +4,7 @@
 #include "physics/angle.h"
 #include "physics/interfaces/traction_separation.h"
 #include "postproc/cohesive/cohesive_results.h"
+#include "postproc/cohesive/flat_surface.h"
 #include "postproc/page/display_unit.h"
 
 #include <fmt/format.h>
@@ -65,8 +66,8 @@ Series fitted_series(const CohesiveResult& result, const DisplayUnit& x, const D
 }
 
 /// "lower pole, 165°–180°"
-std::string label_of(const CohesiveLaw& law, SurfaceKind kind, const Vector& axis) {
-  if (kind == SurfaceKind::plane) return "mean of all places";
+std::string label_of(const CohesiveLaw& law, const ColumnRecord& record, const Vector& axis) {
+  if (is_flat(record.kind, record.places)) return "mean of all places";
   const std::string angles = fmt::format("{:.0f}°–{:.0f}°", law.from / degree, law.to / degree);
   if (law.from == 0.0) return fmt::format("{}, {}", name_of_pole(true, axis), angles);
   return law.to == std::numbers::pi ? fmt::format("{}, {}", name_of_pole(false, axis), angles) : angles;
@@ -90,7 +91,7 @@ Chart law_chart(const ColumnRecord& record, const Vector& axis) {
               .series = {}};
   for (const CohesiveResult& r : results) {
     chart.series.push_back(law_series(r, x, y));
-    chart.series.back().label = label_of(r.law, record.kind, axis);
+    chart.series.back().label = label_of(r.law, record, axis);
     chart.series.back().colour = static_cast<int>(chart.series.size()) - 1;
   }
   chart.series.front().style = SeriesStyle::line_with_points;
