@@ -25,9 +25,22 @@ constexpr RegionShape shape_table[] = {
     {"box", "distances are half-widths of squares along and across the direction of growth", box_distance},
 };
 
+// The place, of a sector turned about the axis z into the half-plane y = 0, x > 0.
+Vector place_of(const TipRegion& region, const Vector& x) {
+  return region.is_about_axis ? Vector(std::hypot(x.x(), x.y()), 0.0, x.z()) : x;
+}
+
+// The direction of growth at a place, which turns about the axis of a sector.
+Vector growth_at(const TipRegion& region, const Vector& x) {
+  if (!region.is_about_axis) return region.direction;
+  const double radius = std::hypot(x.x(), x.y());
+  const Vector outwards = radius > 0.0 ? Vector(x.x() / radius, x.y() / radius, 0.0) : Vector::Zero();
+  return region.direction.x() * outwards + region.direction.z() * Vector::UnitZ();
+}
+
 // q at a place.
 double weight_at(const TipRegion& region, const Vector& tip, const Vector& x) {
-  const Vector r = x - tip;
+  const Vector r = place_of(region, x) - tip;
   const double distance = region.shape->distance(r.dot(region.direction), r.dot(region.front.cross(region.direction)));
   return std::clamp((region.outer - distance) / (region.outer - region.inner), 0.0, 1.0);
 }
@@ -35,7 +48,9 @@ double weight_at(const TipRegion& region, const Vector& tip, const Vector& x) {
 // Where it is neither 0 nor 1 on a face that is not parallel to the growth, the body ends within the ring.
 bool leaves_body(const Mesh& mesh, const TipRegion& region, const FaceField<double>& q) {
   for (Index f = mesh.n_interior_faces(); f < mesh.n_faces(); ++f)
-    if (q[f] > 0.0 && q[f] < 1.0 && std::abs(mesh.face_area[f].normalized().dot(region.direction)) > 1e-6) return true;
+    if (q[f] > 0.0 && q[f] < 1.0 &&
+        std::abs(mesh.face_area[f].normalized().dot(growth_at(region, mesh.face_centre[f]))) > 1e-6)
+      return true;
   return false;
 }
 
@@ -48,11 +63,35 @@ double extent_along(const Mesh& mesh, const Vector& axis) {
   return most - least;
 }
 
+// Width of a sector at the radius of the tip, between the two planes that bound it.
+double width_at(const Mesh& mesh, double radius) {
+  Vector middle = Vector::Zero();
+  for (const Vector& x : mesh.cell_centre) middle += Vector(x.x(), x.y(), 0.0).normalized();
+  middle.normalize();
+  double sine = 0.0;
+  for (const Vector& x : mesh.points)
+    if (const double r = std::hypot(x.x(), x.y()); r > 0.0)
+      sine = std::max(sine, std::abs(middle.x() * x.y() - middle.y() * x.x()) / r);
+  return 2.0 * radius * sine;
+}
+
+double length_of_front(const Mesh& mesh, const TipRegion& region, const Vector& tip) {
+  return region.is_about_axis ? width_at(mesh, tip.x()) : extent_along(mesh, region.front);
+}
+
 // int q over the faces of a cell: its gradient times the volume. It sums to exactly zero over the body, as a gradient
 // does.
 Vector gradient_of(const Mesh& mesh, const FaceField<double>& q, Index c) {
   Vector gradient = Vector::Zero();
   for (const Index f : mesh.faces_of_cell(c)) gradient += q[f] * mesh.outward_area(f, c);
+  return gradient;
+}
+
+// int grad theta dV over a cell of a sector: of theta = q e with e turning about the axis.
+Tensor growth_gradient(const Mesh& mesh, const TipRegion& region, const FaceField<double>& q, Index c) {
+  Tensor gradient = Tensor::Zero();
+  for (const Index f : mesh.faces_of_cell(c))
+    gradient += q[f] * growth_at(region, mesh.face_centre[f]) * mesh.outward_area(f, c).transpose();
   return gradient;
 }
 
@@ -82,6 +121,22 @@ Elastic elastic_in(const Mesh& mesh, const OutputFields& output, Index c) {
     closure += mesh.face_area[f] * lever.transpose();
   }
   return {moment * closure.inverse(), output.energy_density[c]};
+}
+
+// What a cell adds to G, times the length of the front [J/m].
+double release_of(const Mesh& mesh, const OutputFields& output, const TipRegion& region, const FaceField<double>& q,
+                  Index c) {
+  if (region.is_about_axis) {
+    const Tensor theta = growth_gradient(mesh, region, q, c);
+    if (theta.squaredNorm() == 0.0) return 0.0;
+    const Elastic elastic = elastic_in(mesh, output, c);
+    return elastic.stress.cwiseProduct(output.gradient[c] * theta).sum() - elastic.energy * theta.trace();
+  }
+  const Vector gradient = gradient_of(mesh, q, c);
+  if (gradient.squaredNorm() == 0.0) return 0.0;
+  const Elastic elastic = elastic_in(mesh, output, c);
+  return (output.gradient[c] * region.direction).dot(elastic.stress * gradient) -
+         elastic.energy * region.direction.dot(gradient);
 }
 
 struct Crack {
@@ -182,7 +237,7 @@ Vector crack_tip(const Mesh& mesh, const CellField<double>& damage, const TipReg
     if (damage[P] < damage[N]) std::swap(P, N);
     if (damage[P] < region.tip_damage || damage[N] >= region.tip_damage) continue;
     const double part = (damage[P] - region.tip_damage) / (damage[P] - damage[N]);
-    const Vector x = mesh.cell_centre[P] + part * (mesh.cell_centre[N] - mesh.cell_centre[P]);
+    const Vector x = place_of(region, mesh.cell_centre[P] + part * (mesh.cell_centre[N] - mesh.cell_centre[P]));
     const double ahead = (x - region.point).dot(region.direction);
     if (ahead <= foremost || std::abs((x - region.point).dot(across)) > region.corridor) continue;
     foremost = ahead;
@@ -195,19 +250,13 @@ EnergyRelease energy_release_rate(const Mesh& mesh, const OutputFields& output, 
   EnergyRelease result{.tip = crack_tip(mesh, output.damage, region)};
   const FaceField<double> q = weights(mesh, region, result.tip);
   CellField<double> release(mesh.n_cells(), 0.0);
-  parallel_for(mesh.n_cells(), [&](Index c) {
-    const Vector gradient = gradient_of(mesh, q, c);
-    if (gradient.squaredNorm() == 0.0) return;
-    const Elastic elastic = elastic_in(mesh, output, c);
-    release[c] = (output.gradient[c] * region.direction).dot(elastic.stress * gradient) -
-                 elastic.energy * region.direction.dot(gradient);
-  });
+  parallel_for(mesh.n_cells(), [&](Index c) { release[c] = release_of(mesh, output, region, q, c); });
   const double sum = parallel_sum(mesh.n_cells(), [&](Index c) { return release[c]; });
   const double size = parallel_sum(mesh.n_cells(), [&](Index c) { return std::abs(release[c]); });
   const double damaged = parallel_sum(
       mesh.n_cells(), [&](Index c) { return output.damage[c] > hardly_damaged ? std::abs(release[c]) : 0.0; });
-  result.G =
-      leaves_body(mesh, region, q) ? std::numeric_limits<double>::quiet_NaN() : sum / extent_along(mesh, region.front);
+  result.G = leaves_body(mesh, region, q) ? std::numeric_limits<double>::quiet_NaN()
+                                          : sum / length_of_front(mesh, region, result.tip);
   result.damaged_share = size > 0.0 ? damaged / size : 0.0;
   return result;
 }

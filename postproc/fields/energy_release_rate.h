@@ -12,6 +12,10 @@
 // stress and the energy per reference volume take their places, distances are those of the reference mesh, and G is per
 // reference area.
 //
+// About an axis the front is a circle, or the crack grows along the axis: theta = q e with e turning about it, whose
+// gradient has the part (q/r) e_t e_t of a radial e as well, and B is the width of the sector at the tip. Places are
+// those of the half-plane y = 0, x > 0, x the radius.
+//
 // The ratio of the stress intensities of both modes by the interaction integral (Yau, Wang, Corten, J. Appl. Mech. 47
 // (1980) 335; of a crack between two materials Matos et al., Int. J. Fract. 40 (1989) 235): the mixed part of G of the
 // body's field and of the near field with K1 = 1, and with K2 = 1. Their size is that of G, K1^2 + K2^2 = H G: the
@@ -51,6 +55,7 @@ struct TipRegion {
   double tip_damage = 0.9;
   double corridor =
       std::numeric_limits<double>::infinity();  ///< beside the line from `point` [m]; damage beyond is no tip
+  bool is_about_axis = false;                   ///< of a sector about the axis z: front is y or -y, direction across it
   double reference_length = 0.0;                ///< of the stress intensities [m]; 0: they are not asked for
 };
 

@@ -4,11 +4,12 @@
 #include "cases/program/input/config/config.h"
 #include "postproc/fields/energy_release_rate.h"
 
+#include <span>
 #include <vector>
 
 namespace pfdm {
 
-/// `output` is the table [output].
-std::vector<TipRegion> read_energy_release(const ConfigTable& output);
+/// `output` is the table [output]; `boundary` tells whether the body is a sector about the axis z.
+std::vector<TipRegion> read_energy_release(const ConfigTable& output, std::span<const BoundaryCondition> boundary);
 
 }  // namespace pfdm

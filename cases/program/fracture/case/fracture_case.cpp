@@ -170,7 +170,7 @@ void read_output(const ConfigTable& root, FractureCase& fracture, MeshOf mesh) {
   if (mesh == MeshOf::the_case)  // the frames need the curve's patch
     check_names(fracture, fracture.mesh.regions, fracture.mesh.patches);
   read_frames_of(output, fracture);
-  fracture.output.tips = read_energy_release(output);
+  fracture.output.tips = read_energy_release(output, fracture.model.boundary);
 }
 
 /// Which traction-separation laws are recorded.
@@ -282,8 +282,7 @@ FractureModel model_on(const FractureCase& fracture, const Mesh& mesh) {
   if (!fracture.output.tips.empty() && (model.has_body_force() || model.has_eigenstrain()))
     throw InputError(
         "[[output.energy_release_rate]] cannot be combined with body forces or eigenstrains: the integral over the "
-        "ring "
-        "does not have their part");
+        "ring does not have their part");
   for (const TipRegion& region : fracture.output.tips)
     if (region.reference_length > 0.0 && model.is_anisotropic())
       throw InputError(fmt::format(
