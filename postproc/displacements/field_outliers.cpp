@@ -2,6 +2,7 @@
 
 #include "mesh/bounding_box.h"
 #include "postproc/displacements/chi_square.h"
+#include "solver/calibration/calibration_statistics.h"
 
 #include <Eigen/Cholesky>
 #include <Eigen/QR>
@@ -21,12 +22,6 @@ constexpr int passes = 3;
 constexpr double side_of_surface = 3.5;  // spacings
 
 using Neighbours = std::vector<std::vector<std::size_t>>;
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + std::ssize(values) / 2;
-  std::ranges::nth_element(values, middle);
-  return *middle;
-}
 
 /// Calls visit(j) for the other points within `side` of point i.
 class PointSquares {
@@ -102,7 +97,7 @@ double noise_of(const RecordedFrame& frame, double spacing, int n_components) {
     if (!(freedom > 0.0)) continue;
     variances.push_back(left / (freedom * chi_square_over_mean(freedom, 0.0)));
   }
-  return variances.empty() ? 0.0 : std::sqrt(median(std::move(variances)));
+  return variances.empty() ? 0.0 : std::sqrt(quantile(std::move(variances), 0.5));
 }
 
 Square square_of(const Vector& p, double side) {
@@ -123,7 +118,7 @@ double spacing_of(const std::vector<Vector>& points) {
     squares.around(i, [&](std::size_t j) { least = std::min(least, (points[i] - points[j]).head<2>().norm()); });
     nearest.push_back(least);
   }
-  return median(std::move(nearest));
+  return quantile(std::move(nearest), 0.5);
 }
 
 std::vector<bool> outliers_of(const RecordedFrame& frame, double spacing, int n_components) {
@@ -140,12 +135,12 @@ std::vector<bool> outliers_of(const RecordedFrame& frame, double spacing, int n_
       for (const Vector& r : residuals)
         if (r[k] != 0.0) all.push_back(std::abs(r[k]));
       if (all.empty()) continue;
-      const double everywhere = median(std::move(all));
+      const double everywhere = quantile(std::move(all), 0.5);
       for (std::size_t i = 0; i < n; ++i) {
         if (!(std::abs(residuals[i][k]) > astray * normal_mad * everywhere)) continue;
         std::vector<double> here;
         for (const std::size_t j : around[i]) here.push_back(std::abs(residuals[j][k]));
-        if (!here.empty() && std::abs(residuals[i][k]) > astray * normal_mad * median(std::move(here)))
+        if (!here.empty() && std::abs(residuals[i][k]) > astray * normal_mad * quantile(std::move(here), 0.5))
           is_outlier[i] = true;
       }
     }

@@ -1,5 +1,7 @@
 #include "postproc/fits/uneven_scatter.h"
 
+#include "solver/calibration/calibration_statistics.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -63,9 +65,7 @@ UnevenScatter uneven_scatter(const FitResult& result, const std::vector<double>&
   const ArrayXd squares = squares_of(result, effects, n);
   if (!(squares.sum() > 0.0) || !std::isfinite(squares.sum())) return {};
   const ArrayXd size = ArrayXd::Map(sizes.data(), n);
-  std::vector<double> sorted(size.begin(), size.end());
-  std::ranges::nth_element(sorted, sorted.begin() + n / 2);
-  const double median = sorted[static_cast<std::size_t>(n / 2)];
+  const double median = quantile({size.begin(), size.end()}, 0.5);
   const ArrayXd is_large = (size >= median).cast<double>();
   const double n_large = is_large.sum(), n_small = static_cast<double>(n) - n_large;
   return {.probability = chance_of_order(squares, size),

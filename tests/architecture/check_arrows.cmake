@@ -61,7 +61,7 @@ set(rooms
     "postproc/fields: physics mesh mesh/files solver solver/momentum solver/fracture postproc/files postproc/hdf5"
     "postproc/curves: physics solver/fracture solver/calibration postproc/files"
     "postproc/fits: physics solver/calibration postproc/files postproc/curves"
-    "postproc/displacements: physics mesh mesh/search postproc/files postproc/curves postproc/fits"
+    "postproc/displacements: physics mesh mesh/search solver/calibration postproc/files postproc/curves postproc/fits"
     "postproc/point: physics solver/point postproc/files postproc/curves postproc/fits"
     "postproc/vibration: physics solver/vibration solver/calibration postproc/files postproc/curves postproc/fits"
     "postproc/cohesive: physics mesh mesh/search solver solver/fracture solver/calibration postproc/files postproc/fields postproc/curves"

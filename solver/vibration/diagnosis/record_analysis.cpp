@@ -1,5 +1,6 @@
 #include "solver/vibration/diagnosis/record_analysis.h"
 
+#include "solver/calibration/calibration_statistics.h"
 #include "solver/vibration/identification/identification_responses.h"
 #include "solver/vibration/signals/signals_filter.h"
 
@@ -47,12 +48,7 @@ VectorXd frequency_of(const VectorXd& phase, double rate, Eigen::Index half) {
 
 }  // namespace
 
-double TrackedResponse::median_base() const {
-  std::vector<double> sorted(base.begin(), base.end());
-  const auto middle = sorted.begin() + std::ssize(sorted) / 2;
-  std::nth_element(sorted.begin(), middle, sorted.end());
-  return *middle;
-}
+double TrackedResponse::median_base() const { return quantile({base.begin(), base.end()}, 0.5); }
 
 Eigen::Index TrackedResponse::at_resonance() const {
   const double least = 0.5 * median_base();  // beside the ramps

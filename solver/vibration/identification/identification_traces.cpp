@@ -1,5 +1,6 @@
 #include "solver/vibration/identification/identification_traces.h"
 
+#include "solver/calibration/calibration_statistics.h"
 #include "solver/vibration/signals/signals_fourier.h"
 #include "solver/vibration/signals/signals_spectra.h"
 
@@ -47,12 +48,6 @@ VectorXd whitened(const VectorXd& x, double rate, double low, double high) {
   return inverse_fourier(spectrum, x.size());
 }
 
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + std::ssize(values) / 2;
-  std::ranges::nth_element(values, middle);
-  return *middle;
-}
-
 }  // namespace
 
 std::optional<Tone> tone_in(const VectorXd& x, double rate, double low, double high) {
@@ -91,7 +86,7 @@ std::optional<Burst> burst_in(const VectorXd& x, double rate, double low, double
   for (Eigen::Index w = 1; w + 1 < n; ++w) {  // whitening takes the ends for neighbours
     const Eigen::Index begin = std::clamp<Eigen::Index>(w - around, 0, n - 2 * around), size = 2 * around;
     const auto beside = power.segment(begin, size);
-    const double times = power[w] / median({beside.begin(), beside.end()});
+    const double times = power[w] / quantile({beside.begin(), beside.end()}, 0.5);
     if (times > stands_out) ++burst.number;
     if (times <= burst.times) continue;
     burst.times = times;
