@@ -149,6 +149,11 @@ void widen(FittedParameter& p, double by, double freedom) {
   p.upper = p.log_scale ? p.estimate * std::exp(reach / p.estimate) : p.estimate + reach;
 }
 
+std::optional<double> reach_of_widened(const FittedParameter& p) {
+  if (p.widened_by == 1.0 && std::isinf(p.freedom)) return std::nullopt;
+  return p.widened_by * student_95(std::min(p.freedom, 1e9));
+}
+
 void hold_move(const FittedParameter& p, double& lower, double& upper) {
   if (!std::isfinite(p.moved_by_finer)) return;
   const double factor = 1.0 + p.moved_by_finer / p.estimate;
@@ -195,6 +200,7 @@ void withhold_intervals(FitFindings& found) {
   for (FittedParameter& p : found.parameters) {
     p.standard_error = p.lower = p.upper = std::numeric_limits<double>::quiet_NaN();
     p.widened_by = 1.0;
+    p.freedom = std::numeric_limits<double>::infinity();
     p.profile.reset();
     if (!holds_discrepancy) p.posterior.reset();
   }

@@ -37,6 +37,10 @@ bool judge(FitFindings& found, JudgedData data);
 /// freedom.
 void widen(FittedParameter& p, double by, double freedom);
 
+/// Deviations, before they are widened, at the ends of the interval of 95 % of a parameter that is widened; nothing of
+/// others.
+std::optional<double> reach_of_widened(const FittedParameter& p);
+
 /// One more reason: the findings are questionable at best, and lose their intervals.
 void question(FitFindings& found, std::string reason);
 /// All of them but those of a posterior that holds a discrepancy of the model.

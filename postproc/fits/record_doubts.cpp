@@ -46,7 +46,9 @@ void doubt_stray_row(const FitResult& result, const std::vector<FittedRecord>& r
 void widen_for_uneven_scatter(const FitResult& result, const std::vector<FittedRecord>& records, double negligible,
                               const std::string& advice, FitFindings& found) {
   constexpr double false_alarm = 0.002, noticeable_widening = 1.25;
-  if (result.noise_is_known || found.verdict != Verdict::sound || is_rounding(result, negligible)) return;
+  const bool is_widened =
+      std::ranges::any_of(found.parameters, [](const FittedParameter& p) { return reach_of_widened(p).has_value(); });
+  if (result.noise_is_known || !is_sound(found.verdict) || is_widened || is_rounding(result, negligible)) return;
   const UnevenScatter scatter = uneven_scatter(result, sizes_of(records));
   if (!(scatter.probability < false_alarm && scatter.widest() > noticeable_widening)) return;
   for (std::size_t j = 0; j < found.parameters.size(); ++j) {

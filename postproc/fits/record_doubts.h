@@ -24,7 +24,7 @@ void doubt_stray_row(const FitResult& result, const std::vector<FittedRecord>& r
                      FitFindings& found);
 
 /// Widens the intervals of a sound fit whose noise is not known, and follows the size of what was measured
-/// (uneven_scatter.h); says so with `advice`, what states such noise.
+/// (uneven_scatter.h); says so with `advice`, what states such noise. Not where correlated residuals have widened them.
 void widen_for_uneven_scatter(const FitResult& result, const std::vector<FittedRecord>& records, double negligible,
                               const std::string& advice, FitFindings& found);
 

@@ -1,5 +1,7 @@
 // Residuals whose noise is even, or grows with the force, by repetition.
 
+#include "postproc/fits/fit_judgement.h"
+#include "postproc/fits/record_doubts.h"
 #include "postproc/fits/uneven_scatter.h"
 #include "tests/solver/noisy_bar.h"
 
@@ -116,6 +118,38 @@ TEST(UnevenScatter, HasTheRmsOfSmallAndLargeForces) {
   EXPECT_NEAR(found.small, 0.02, 0.006);
   EXPECT_NEAR(found.large, 0.06, 0.018);
   EXPECT_LT(found.probability, 0.01);
+}
+
+// Of a sound fit, also of one within the error of its mesh; not of one whose intervals are wider already.
+TEST(UnevenScatter, WidensIntervalsOnce) {
+  std::mt19937_64 engine(5);
+  std::vector<double> noise = noisy_bar::noise("white", n, engine);
+  const std::vector<double> size = forces();
+  for (std::size_t i = 0; i < n; ++i) noise[i] *= 0.05 + size[i];
+  const FitProblem problem = noisy_bar::problem(noise);
+  const FitResult result = fit(problem, {.step = 1e-4});
+  const std::vector<FittedRecord> records{{.measured = {}, .size = sizes(size, noise, result), .row = {}}};
+  const auto widening = [&](Verdict verdict, bool is_correlated) {
+    FitFindings found = findings_of(problem.parameters, result);
+    found.verdict = verdict;
+    if (is_correlated) widen(found.parameters[1], 1.0, 10.0);
+    widen_for_uneven_scatter(result, records, 0.0, "", found);
+    return found.parameters[1].widened_by;
+  };
+  EXPECT_GT(widening(Verdict::sound, false), 1.25);
+  EXPECT_EQ(widening(Verdict::discretised, false), widening(Verdict::sound, false));
+  EXPECT_EQ(widening(Verdict::correlated, true), 1.0);
+  EXPECT_EQ(widening(Verdict::questionable, false), 1.0);
+}
+
+// Correlated residuals may leave fewer degrees of freedom, and the standard error as it is.
+TEST(UnevenScatter, OfAWidenedIntervalReachesAsFarAsItsEnds) {
+  FittedParameter p{.estimate = 5.0, .standard_error = 1.0};
+  EXPECT_FALSE(reach_of_widened(p));
+  widen(p, 1.0, 10.0);
+  ASSERT_TRUE(reach_of_widened(p));
+  EXPECT_NEAR(*reach_of_widened(p), 2.228, 1e-3);
+  EXPECT_NEAR(p.upper, 5.0 + *reach_of_widened(p), 1e-12);
 }
 
 TEST(UnevenScatter, OfFewValuesIsNotKnown) {

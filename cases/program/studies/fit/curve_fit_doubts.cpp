@@ -6,7 +6,6 @@
 #include "cases/program/studies/runs/finer_case.h"
 #include "physics/quantity_text.h"
 #include "postproc/fits/record_doubts.h"
-#include "solver/calibration/calibration_statistics.h"
 #include "solver/calibration/profile_likelihood.h"
 
 #include <fmt/format.h>
@@ -18,12 +17,6 @@ namespace pfdm {
 namespace {
 
 constexpr double least_noise = 1e-3;  // of the rms force: what load steps leave scatters as it likes
-
-/// Deviations at the ends of an interval by profile likelihood; nothing where it is not widened.
-std::optional<double> reach_of_interval(const FittedParameter& p) {
-  if (p.widened_by == 1.0) return std::nullopt;
-  return p.widened_by * student_95(std::min(p.freedom, 1e9));
-}
 
 std::vector<FittedRecord> records_of(const MeasuredPoints& points, const std::vector<MeasuredCurve>& specimens,
                                      const FitResult& result) {
@@ -163,7 +156,7 @@ void CurveFit::add_profiles(const DoneStage& done, FitFindings& found) const {
     const CaseParameter& parameter = parameters_[done.stage.parameters[k]];
     if (&done.stage != &*last_stage_of(done.stage.parameters[k])) continue;
     const ProfileSettings how{
-        .due = reach_of_interval(found.parameters[k]), .trying = [&](std::size_t, double value) {
+        .due = reach_of_widened(found.parameters[k]), .trying = [&](std::size_t, double value) {
           session_.log.say(fmt::format("  profile: {} = {}", parameter.short_name(), parameter.shown(value)));
         }};
     const ProfileInterval interval = profile_interval(done.problem, done.settings, done.result, k, how);
