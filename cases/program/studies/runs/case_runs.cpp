@@ -26,7 +26,7 @@ enum RunStatus { run_went_well = 0, run_did_not_converge = 1, run_broke_off = 2 
 constexpr std::string_view laws_in_key = "_laws";  // of runs that record them
 
 /// Tables that a run does not look at, or whose files it does not write here.
-constexpr std::string_view without_influence[] = {"cohesive", "experiment", "fit", "sweep"};
+constexpr std::string_view without_influence[] = {"experiment", "fit", "sweep"};
 
 /// Nothing if there is no run in the folder, or none that has come as far as is asked for. One that has, and failed
 /// later, is as good as any.
