@@ -9,9 +9,11 @@
 #include "physics/quantity_text.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <limits>
+#include <map>
 
 namespace pfdm {
 namespace {
@@ -178,6 +180,24 @@ bool has_idle_strength(const MaterialKeys& keys, const MaterialDefaults& default
          !keys.degradation.value_or(defaults.degradation).law().needs_strength;
 }
 
+// One for all regions of a degradation.
+std::vector<std::string> idle_strengths(const std::vector<RegionKeys>& regions, const MaterialDefaults& defaults) {
+  constexpr std::size_t most_named = 3;
+  std::map<std::string, std::vector<std::string>> of_degradation;
+  for (const RegionKeys& entry : regions)
+    if (has_idle_strength(entry.keys, defaults))
+      of_degradation[std::string(entry.keys.degradation.value_or(defaults.degradation).name())].push_back(
+          fmt::format("\"{}\"", entry.region));
+  std::vector<std::string> warnings;
+  for (const auto& [degradation, of] : of_degradation)
+    warnings.push_back(fmt::format(
+        "strength of region{} {}{} changes nothing: the degradation \"{}\" has none (the model \"Wu\" and the model "
+        "\"strength\" do)",
+        of.size() == 1 ? "" : "s", fmt::join(of.begin(), of.begin() + std::min(of.size(), most_named), ", "),
+        of.size() > most_named ? fmt::format(" and {} more", of.size() - most_named) : "", degradation));
+  return warnings;
+}
+
 }  // namespace
 
 const IsotropicElasticity& Materials::elasticity(const ConfigValue& name) const {
@@ -207,16 +227,12 @@ Materials read_materials(const ConfigTable& root, const MaterialDefaults& defaul
   for (const RegionOverride& over : overrides)
     if (over.band) materials.bands.push_back(*over.band);
   for (const Band& band : materials.bands) correct_toughness(band, regions, defaults, materials.remarks);
+  if (defaults.elastic_keys == nullptr) materials.idle_keys = idle_strengths(regions, defaults);
   for (const RegionKeys& entry : regions) {
     const auto at = [entry, defaults](const Vector& x) {
       return region_model(entry.keys, entry.region, defaults, entry.table, x);
     };
     const bool varies = any_varies(entry.keys);
-    if (defaults.elastic_keys == nullptr && has_idle_strength(entry.keys, defaults))
-      materials.idle_keys.push_back(fmt::format(
-          "strength of region \"{}\" changes nothing: the degradation \"{}\" has none (the model \"Wu\" and "
-          "the model \"strength\" do)",
-          entry.region, entry.keys.degradation.value_or(defaults.degradation).name()));
     if (!varies) at(Vector::Zero());  // what is wrong with it is wrong everywhere
     materials.by_region.push_back(
         {.region = entry.region,
