@@ -85,7 +85,7 @@ void help_on(const std::string& asked, std::vector<KindKeys> kinds, const std::f
 void help_on_keys_beside(const std::string& command, const std::vector<KindKeys>& kinds, std::ostream& out) {
   bool is_table = false;
   for_each_key(kinds, [&](const PlacedKey& placed) { is_table = is_table || placed.path == command; });
-  if (is_table) out << fmt::format("\n[{0}] is also a table of case.toml: pfdm help {0}.\n", command);
+  if (is_table) out << fmt::format("\n[{0}] is also a table of case.toml, with a dot: pfdm help \"{0}.\"\n", command);
 }
 
 }  // namespace pfdm

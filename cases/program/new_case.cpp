@@ -142,17 +142,19 @@ struct CaseToCopy {
   std::string made, to_edit;  ///< words after the old name, and after "edit case.toml"
 };
 
+bool has_table(const CaseFile& file, const char* table) {
+  const TomlValue root = parse_toml(file.text, "case.toml");
+  return std::ranges::count(std::get<TomlTable>(root.value), table, &TomlEntry::key) > 0;
+}
+
 /// Without [experiment], whose record is of another body than the new case will be; a [fit] needs it.
 CaseToCopy to_copy(const fs::path& like) {
   const CaseFile old = open_case(like);
   if (knows_kind(old)) read_case(old);  // a copy of what is wrong helps nobody
-  const TomlValue root = parse_toml(old.text, "case.toml");
-  const auto has = [&](const char* table) {
-    return std::ranges::count(std::get<TomlTable>(root.value), table, &TomlEntry::key) > 0;
-  };
-  if (!has("experiment")) return {old, "", ""};
-  if (!has("fit")) {
-    const CaseFile without = with_text(old, with_table(old, "experiment", "", old.directory));
+  if (!has_table(old, "experiment")) return {old, "", ""};
+  const CaseFile without = with_text(old, with_table(old, "experiment", "", old.directory));
+  const bool may_leave_it = !has_table(old, "fit") && !has_table(without, "experiment");  // it may stand in braces
+  if (may_leave_it) {
     try {
       if (knows_kind(without)) read_case(without);
       return {without, ", without its [experiment]",

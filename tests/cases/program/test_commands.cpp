@@ -66,7 +66,8 @@ TEST(Commands, HelpIsThatOfTheOption) {
 }
 
 TEST(Commands, HelpNamesTablesThatAreCalledAsOne) {
-  EXPECT_THAT(run({"help", "mesh"}).out, testing::EndsWith("\n[mesh] is also a table of case.toml: pfdm help mesh.\n"));
+  EXPECT_THAT(run({"help", "mesh"}).out,
+              testing::EndsWith("\n[mesh] is also a table of case.toml, with a dot: pfdm help \"mesh.\"\n"));
   EXPECT_EQ(run({"help", "run"}).out, run({"run", "--help"}).out);
   EXPECT_THAT(run({"help", "mesh."}).out, HasSubstr("in         mesh (fracture)"));
   const std::string temperature = run({"help", "temperature"}).out;  // a key of plates alone has the name
@@ -176,6 +177,19 @@ TEST(Init, LeavesTheRecordOutWhereNoFitNeedsIt) {
   EXPECT_THAT(run({"init", bead.string(), "--like", "glass_bead_quick"}).out,
               HasSubstr("edit case.toml, also [experiment], whose record is of glass_bead_quick, then: "));
   EXPECT_TRUE(fs::exists(bead / "data/synthetic_debonding.csv"));
+}
+
+TEST(Init, TellsOfARecordThatStandsInBraces) {
+  const TemporaryCase directory(
+      "experiment.specimens = [{ name = \"a\", csv = \"a.csv\", displacement = { column = "
+      "\"u_m\", unit = \"m\" }, force = { column = \"F_N\", unit = \"N\" } }]\n"
+      "experiment.stiffness_between = [\"0 um\", \"6 um\"]\n" +
+      bar_case());
+  directory.write("a.csv", "u_m,F_N\n0,0\n5e-6,5\n");
+  const fs::path made = directory.path() / "made";
+  EXPECT_THAT(run({"init", made.string(), "--like", directory.path().string()}).out,
+              HasSubstr("edit case.toml, also [experiment], whose record is of "));
+  EXPECT_TRUE(fs::exists(made / "a.csv"));
 }
 
 TEST(Init, RefusesWhatIsThere) {
