@@ -36,6 +36,23 @@ constexpr Ending endings[] = {{"_N_per_m", "N/m", true},
 constexpr std::string_view costs[] = {"threads",      "staggered_iterations", "krylov_iterations",
                                       "wall_seconds", "cpu_seconds",          "peak_memory_bytes"};
 
+/// Of a box, whose force and displacement nobody asks for, mean stress and strain in their place.
+std::vector<std::string> headline_names(const CsvTable& table) {
+  constexpr std::string_view peak = "peak_stress_", in_pascals = "_Pa";
+  const auto of_box = std::ranges::find_if(
+      table.names, [&](const std::string& name) { return name.starts_with(peak) && name.ends_with(in_pascals); });
+  std::vector<std::string> names{"peak_force_N", "displacement_at_peak_m", "first_debonding_force_N",
+                                 "first_debonding_displacement_m", "initial_stiffness_N_per_m"};
+  if (of_box != table.names.end()) {
+    const std::string along = of_box->substr(peak.size(), of_box->size() - peak.size() - in_pascals.size());
+    names = {*of_box, fmt::format("strain_{}_at_peak", along), fmt::format("first_debonding_stress_{}_Pa", along),
+             fmt::format("first_debonding_strain_{}", along), fmt::format("initial_modulus_{}_Pa", along)};
+  }
+  names.emplace_back("cohesive_strength_Pa");
+  names.emplace_back("cohesive_energy_J_per_m2");
+  return names;
+}
+
 }  // namespace
 
 std::string ShownColumn::title() const {
@@ -60,15 +77,8 @@ std::string in_ascii(std::string unit) {
 }
 
 std::vector<std::size_t> headline_columns(const CsvTable& table) {
-  constexpr std::string_view names[] = {"peak_force_N",
-                                        "displacement_at_peak_m",
-                                        "first_debonding_force_N",
-                                        "first_debonding_displacement_m",
-                                        "initial_stiffness_N_per_m",
-                                        "cohesive_strength_Pa",
-                                        "cohesive_energy_J_per_m2"};
   std::vector<std::size_t> columns;
-  for (const std::string_view name : names)
+  for (const std::string& name : headline_names(table))
     if (const auto found = std::ranges::find(table.names, name); found != table.names.end())
       columns.push_back(static_cast<std::size_t>(found - table.names.begin()));
   return columns;

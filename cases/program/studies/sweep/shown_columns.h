@@ -30,7 +30,8 @@ ShownColumn shown_column(const std::string& name, const std::vector<double>& val
 /// A unit as a terminal takes it: "um" of micrometres, "^2" of squares.
 std::string in_ascii(std::string unit);
 
-/// Columns of figures that one asks for first, of runs with a force-displacement curve or an interface, in this order.
+/// Columns of figures that one asks for first, of runs with a curve of force and displacement, or of mean stress and
+/// strain, in this order; none of other kinds of case.
 std::vector<std::size_t> headline_columns(const CsvTable& table);
 
 /// Whether the finite values of a column differ.

@@ -22,6 +22,18 @@ std::string change_text(double from, double to) {
   return std::abs(percent) < 99.5 ? fmt::format("{:+.2g} %", percent) : fmt::format("{:+.0f} %", percent);
 }
 
+/// Of the figures that one asks for first; of a kind of case that has none of them those that differ, but for
+/// sizes.
+std::vector<std::size_t> told_columns(const CsvTable& table) {
+  constexpr std::size_t most = 12;
+  constexpr std::string_view sizes[] = {"cells", "unknowns", "steps"};
+  std::vector<std::size_t> columns = headline_columns(table);
+  if (!columns.empty()) return columns;
+  for (std::size_t j = table.find("converged") + 1; j < table.names.size() && columns.size() < most; ++j)
+    if (varies(table.columns[j]) && std::ranges::count(sizes, table.names[j]) == 0) columns.push_back(j);
+  return columns;
+}
+
 }  // namespace
 
 SweepSettings read_changes(const ConfigTable& sweep) {
@@ -74,7 +86,7 @@ std::vector<std::string> lines_of_changes(const SweepSettings& settings, const C
   std::vector<std::string> lines;
   if (!settings.is_of_changes || table.column("converged").front() == 0.0) return lines;
   const std::vector<std::string>& words = settings.parameters.front().words;
-  for (const std::size_t j : headline_columns(table)) {
+  for (const std::size_t j : told_columns(table)) {
     const ShownColumn figure = shown_column(table, j);
     if (!std::isfinite(figure.values.front())) continue;
     std::vector<std::string> told;

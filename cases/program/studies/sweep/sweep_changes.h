@@ -28,8 +28,8 @@ std::vector<std::string> told_changes(const CsvTable& table);
 std::string words_of_error(const std::filesystem::path& results, double peak_force);
 
 /// What each change does to the figures that one asks for first, in per cent of those of the case as it is: a line of
-/// each figure. `table`: of the sweep's runs, in order. None of sweeps of other methods, or where the case itself
-/// failed.
+/// each figure. Of kinds of case without such figures, to those that differ. `table`: of the sweep's runs, in order.
+/// None of sweeps of other methods, or where the case itself failed.
 std::vector<std::string> lines_of_changes(const SweepSettings& settings, const CsvTable& table);
 
 }  // namespace pfdm
