@@ -1,6 +1,8 @@
 // Sweeps of changes: the case as it is, and with one change at a time.
 
+#include "cases/program/studies/sweep/shown_columns.h"
 #include "postproc/files/csv_table.h"
+#include "tests/cases/endochronic_case.h"
 #include "tests/cases/temporary_case.h"
 
 #include <gmock/gmock.h>
@@ -43,8 +45,48 @@ TEST(SweepChanges, RunTheCaseAndEachChangeAlone) {
   const CsvTable curve = read_csv(directory.results() / "force_displacement.csv");
   EXPECT_EQ(peak[0], std::ranges::max(curve.column("force_x_N")));
   EXPECT_EQ(run({"report", directory.path().string(), "--quiet"}).status, 0);
-  EXPECT_THAT(content_of(directory.results() / "report" / "sweep" / "index.html"),
-              HasSubstr("peak force 17.41 N: half the steps 0 %, twice as stiff +38 %"));
+  const std::string page = content_of(directory.results() / "report" / "sweep" / "index.html"),
+                    line = "peak force 17.41 N: half the steps 0 %, twice as stiff +38 %";
+  EXPECT_THAT(page, HasSubstr(line));
+  EXPECT_EQ(page.find(line), page.rfind(line)) << "told twice";
+  EXPECT_THAT(page, HasSubstr("The sweep has 3 runs, 3 of them converged."));
+  EXPECT_THAT(page, testing::Not(HasSubstr("change=")));
+  EXPECT_THAT(outcome.out, HasSubstr("run 3: twice as stiff (materials.concrete.young_modulus = 60 GPa)"));
+}
+
+// What is said of debonding and of the law depends on the surfaces.
+TEST(SweepChanges, AreRunAgainWithOtherSurfaces) {
+  const TemporaryCase directory(bar_case() + crack_plane() + changes);
+  ASSERT_EQ(run({"sweep", directory.path().string(), "--quiet"}).status, 0);
+  const double wide =
+      read_csv(directory.results() / "sweep.csv", {.has_gaps = true}).column("cohesive_energy_J_per_m2")[0];
+  directory.write("case.toml", replaced(bar_case() + crack_plane() + changes, "\"30 mm\"", "\"0.4 mm\""));
+  const Outcome outcome = run({"sweep", directory.path().string()});
+  EXPECT_THAT(outcome.out, HasSubstr("3 runs made, 0 reused"));
+  EXPECT_LT(read_csv(directory.results() / "sweep.csv", {.has_gaps = true}).column("cohesive_energy_J_per_m2")[0],
+            wide);
+}
+
+TEST(SweepChanges, OfOtherKindsOfCaseAreToldOfWhatDiffers) {
+  const TemporaryCase directory(tension_case() + R"(
+[sweep]
+method = "changes"
+[sweep.changes]
+"ten times the steps" = { "loading.segments[0].increments" = 100 }
+)");
+  const Outcome outcome = run({"sweep", directory.path().string()});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, testing::ContainsRegex("largest stress xx [0-9.]+ MPa: ten times the steps [+-]"));
+}
+
+TEST(SweepChanges, OfABoxAreToldOfStressAndStrain) {
+  CsvTable table;
+  for (const char* name : {"peak_force_N", "first_debonding_stress_zz_Pa", "first_debonding_stress_zz_after_Pa",
+                           "initial_modulus_zz_Pa", "peak_stress_zz_Pa", "strain_zz_at_peak"})
+    table.add(name, {});
+  EXPECT_THAT(headline_columns(table), testing::ElementsAre(4u, 5u, 1u, 3u));
+  table.names[4] = "final_stress_zz_Pa";
+  EXPECT_THAT(headline_columns(table), testing::ElementsAre(0u));
 }
 
 TEST(SweepChanges, AreToldOnThePageOfTheRunThatTheyAreOf) {
@@ -55,8 +97,7 @@ TEST(SweepChanges, AreToldOnThePageOfTheRunThatTheyAreOf) {
     return content_of(directory.results() / "report" / "index.html");
   };
   const std::string unknown = "One run does not tell what its mesh and steps do to it",
-                    known =
-                        "What changes of mesh and steps do to it, one at a time: peak force 17.41 N: half the steps";
+                    known = "What the changes of its sweep do to it, one at a time: peak force 17.41 N: half the steps";
   EXPECT_THAT(page(), HasSubstr(unknown));
   ASSERT_EQ(run({"sweep", directory.path().string(), "--quiet"}).status, 0);
   EXPECT_THAT(page(), HasSubstr(known));

@@ -87,14 +87,16 @@ std::vector<std::string> scatter(const SweepSettings& settings, const CsvTable& 
   return lines;
 }
 
-/// "sylgard.young_modulus=75MPa,interface.toughness=400J_m2"; "run_3" of run 3 where that would be too long.
+/// "sylgard.young_modulus=75MPa,interface.toughness=400J_m2", of a change "half_the_steps"; "run_3" of run 3 where that
+/// would be too long.
 std::string name_by_value(const SweepSettings& settings, std::size_t run) {
   constexpr std::size_t longest = 100;
   constexpr std::string_view plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789.=,+-_";
   std::string name;
   for (std::size_t j = 0; j < settings.parameters.size(); ++j) {
     const CaseParameter& parameter = settings.parameters[j];
-    std::string part = fmt::format("{}={}", parameter.short_name(), parameter.shown(settings.points[run][j]));
+    const std::string value = parameter.shown(settings.points[run][j]);
+    std::string part = settings.is_of_changes ? value : fmt::format("{}={}", parameter.short_name(), value);
     if (settings.is_of_changes) std::ranges::replace(part, ' ', '_');
     std::erase_if(part, [](char c) { return c == ' ' || c == '^' || c == ']'; });
     for (char& c : part)

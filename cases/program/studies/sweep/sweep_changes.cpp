@@ -44,7 +44,7 @@ SweepSettings read_changes(const ConfigTable& sweep) {
   const ConfigTable changes = sweep.table("changes");
   SweepSettings settings;
   if (sweep.has("slurm")) settings.slurm = read_slurm(sweep.table("slurm"));
-  CaseParameter change{.name = "change", .keys = {}, .ratios = {}, .unit = {}, .words = {"none"}};
+  CaseParameter change{.name = change_column, .keys = {}, .ratios = {}, .unit = {}, .words = {"as it is"}};
   for (const auto& [name, keys] : changes.entries()) change.words.push_back(name);
   if (change.words.size() == 1) throw sweep.at("changes").error("at least one change is required");
   for (std::size_t k = 0; k < change.words.size(); ++k) settings.points.push_back({static_cast<double>(k)});
@@ -56,15 +56,24 @@ SweepSettings read_changes(const ConfigTable& sweep) {
 std::vector<CaseVariant> changed_cases(const CaseFile& file) {
   const ConfigTable changes = file.config.root().table("sweep").table("changes");
   std::vector<CaseVariant> variants{{file, "the case as it is"}};
-  for (const auto& [name, keys] : changes.entries()) variants.push_back(*changed_case(changes, name, file));
+  for (const auto& [name, keys] : changes.entries()) {
+    CaseVariant variant = *changed_case(changes, name, file);
+    variant.shown = fmt::format("{} ({})", name, variant.shown);
+    variants.push_back(std::move(variant));
+  }
   return variants;
+}
+
+std::optional<std::string> told_change(std::string_view comment) {
+  const std::string_view told = trimmed(comment);
+  if (!told.starts_with(mark_of_changes)) return std::nullopt;
+  return std::string(told.substr(mark_of_changes.size()));
 }
 
 std::vector<std::string> told_changes(const CsvTable& table) {
   std::vector<std::string> lines;
   for (const std::string& comment : table.comments)
-    if (const std::string_view told = trimmed(comment); told.starts_with(mark_of_changes))
-      lines.emplace_back(told.substr(mark_of_changes.size()));
+    if (auto told = told_change(comment)) lines.push_back(std::move(*told));
   return lines;
 }
 
@@ -77,7 +86,7 @@ std::string words_of_error(const std::filesystem::path& results, double peak_for
     const bool is_of_run = peak < std::ssize(table.names) && table.n_rows() > 0 &&
                            std::abs(table.columns[peak].front() - peak_force) <= rounding * std::abs(peak_force);
     if (!lines.empty() && is_of_run)
-      return fmt::format("What changes of mesh and steps do to it, one at a time: {}.", fmt::join(lines, "; "));
+      return fmt::format("What the changes of its sweep do to it, one at a time: {}.", fmt::join(lines, "; "));
   }
   return "One run does not tell what its mesh and steps do to it: pfdm sweep with the method \"changes\" does.";
 }

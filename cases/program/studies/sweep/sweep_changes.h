@@ -6,6 +6,7 @@
 #include "postproc/files/csv_table.h"
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -18,8 +19,12 @@ SweepSettings read_changes(const ConfigTable& sweep);
 /// The case, and with each change. Throws InputError, with file and line, for a key that it has not.
 std::vector<CaseVariant> changed_cases(const CaseFile& file);
 
+/// The only column of sweep.csv for what is changed, by number.
+inline constexpr const char* change_column = "change";
 /// How the comments of sweep.csv begin that have these lines.
 inline constexpr std::string_view mark_of_changes = "changes: ";
+/// What a comment of sweep.csv tells of changes; nothing of others.
+std::optional<std::string> told_change(std::string_view comment);
 /// The lines among the comments of a sweep's table.
 std::vector<std::string> told_changes(const CsvTable& table);
 

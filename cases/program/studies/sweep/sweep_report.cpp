@@ -101,17 +101,29 @@ Chart figure_chart(const CsvTable& table, const SweepColumns& columns, std::size
   return chart;
 }
 
-}  // namespace
+/// "3 runs, 2 of them converged"
+std::string words_of_runs(const CsvTable& table) {
+  return fmt::format("{} run{}, {} of them converged", table.n_rows(), table.n_rows() == 1 ? "" : "s",
+                     std::ranges::count(table.column("converged"), 1.0));
+}
 
-ReportPage sweep_page(const fs::path& results, const std::string& title, const std::string& version) {
-  const CsvTable table = read_csv(results / sweep_file, {.has_gaps = true});
+/// What the comments tell beside what changes do, which has a block of its own.
+std::vector<PageRow> comments_row(const CsvTable& table) {
+  TextBlock block{.caption = "Folders, words, and runs that did not converge", .lines = {}};
+  for (const std::string& comment : table.comments)
+    if (block.lines.size() < most_runs_shown && !told_change(comment)) block.lines.push_back(comment);
+  if (block.lines.empty()) return {};
+  return {PageRow{.blocks = {std::move(block)}}};
+}
+
+ReportPage page_of(const CsvTable& table, const std::string& title, const std::string& version) {
   const SweepColumns columns = columns_of(table);
-  const auto converged = std::ranges::count(table.column("converged"), 1.0);
   ReportPage page{.title = title,
-                  .subtitle = fmt::format("pfdm {}, sweep of {} run{}, {} of them converged", version, table.n_rows(),
-                                          table.n_rows() == 1 ? "" : "s", converged),
+                  .subtitle = fmt::format("pfdm {}, sweep of {}", version, words_of_runs(table)),
                   .rows = {PageRow{.blocks = {runs_table(table, columns)}}}};
-  if (std::vector<std::string> changes = told_changes(table); !changes.empty())
+  std::vector<std::string> changes = told_changes(table);
+  for (std::string& line : changes) line = in_print(std::move(line));
+  if (!changes.empty())
     page.rows.insert(page.rows.begin(),
                      PageRow{.blocks = {TextBlock{.caption = "What each change does", .lines = std::move(changes)}}});
   std::vector<PageBlock> charts;
@@ -120,13 +132,11 @@ ReportPage sweep_page(const fs::path& results, const std::string& title, const s
       if (varies(table.columns[x]) && charts.size() < most_figures)
         charts.emplace_back(figure_chart(table, columns, x, figure));
   for (PageRow& row : in_pairs(std::move(charts))) page.rows.push_back(std::move(row));
-  if (!table.comments.empty())
-    page.rows.push_back(
-        {.blocks = {TextBlock{.caption = "Folders, words, and runs that did not converge",
-                              .lines = {table.comments.begin(),
-                                        table.comments.begin() + std::min(table.comments.size(), most_runs_shown)}}}});
+  for (PageRow& row : comments_row(table)) page.rows.push_back(std::move(row));
   return page;
 }
+
+}  // namespace
 
 bool has_own_run(const fs::path& results) {
   return fs::exists(results / summary_file) || fs::exists(results / "checkpoint.bin") ||
@@ -135,9 +145,10 @@ bool has_own_run(const fs::path& results) {
 
 void report_sweep(const std::string& title, Session& session) {
   const fs::path folder = session.results / "report" / (has_own_run(session.results) ? "sweep" : "");
-  write_pages(folder, sweep_page(session.results, title, session.version), session,
-              {.headline = told_changes(read_csv(session.results / sweep_file, {.has_gaps = true})),
-               .runs = sweep_runs(session)});
+  const CsvTable table = read_csv(session.results / sweep_file, {.has_gaps = true});
+  write_pages(
+      folder, page_of(table, title, session.version), session,
+      {.headline = {fmt::format("The sweep has {}.", words_of_runs(table))}, .runs = sweep_runs(table, session)});
 }
 
 }  // namespace pfdm

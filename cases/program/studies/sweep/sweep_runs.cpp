@@ -3,8 +3,7 @@
 #include "cases/program/studies/sweep/compared_runs.h"
 #include "cases/program/studies/sweep/merged_charts.h"
 #include "cases/program/studies/sweep/shown_columns.h"
-#include "cases/program/studies/sweep/sweep_report.h"
-#include "postproc/files/csv_table.h"
+#include "cases/program/studies/sweep/sweep_changes.h"
 #include "postproc/page/display_unit.h"
 
 #include <fmt/format.h>
@@ -86,8 +85,7 @@ void add_curve(RunSet& runs, const fs::path& folder, const Session& session) {
 
 }  // namespace
 
-RunSet sweep_runs(const Session& session) {
-  const CsvTable table = read_csv(session.results / sweep_file, {.has_gaps = true});
+RunSet sweep_runs(const CsvTable& table, const Session& session) {
   RunSet runs{.labels = {}, .notes = {}, .columns = {}, .x_title = {}, .y_title = {}, .curves = {}};
   const std::size_t converged = table.find("converged");
   for (std::size_t j = 1; j < table.names.size(); ++j) {
@@ -98,8 +96,10 @@ RunSet sweep_runs(const Session& session) {
                             .values = std::move(column.values),
                             .is_key = j < converged});
   }
+  const bool is_of_changes = table.names.at(1) == change_column;
   for (std::size_t i = 0; i < table.n_rows(); ++i) {
     RunPlace place = place_of(table, i, session.results);
+    if (is_of_changes) place.label = shown_column(table, 1).cell(i);
     add_curve(runs, place.folder, session);
     runs.labels.push_back(std::move(place.label));
     runs.notes.push_back(std::move(place.note));

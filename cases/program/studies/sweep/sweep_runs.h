@@ -3,10 +3,12 @@
 
 #include "cases/program/session/session.h"
 #include "postproc/browser/browser_page.h"
+#include "postproc/files/csv_table.h"
 
 namespace pfdm {
 
-/// From sweep.csv in the session's results and the folders of the runs. A run that is gone, or has no curve, has none.
-RunSet sweep_runs(const Session& session);
+/// Of the table in sweep.csv of the session's results, and the folders of the runs. A run that is gone, or has no
+/// curve, has none.
+RunSet sweep_runs(const CsvTable& table, const Session& session);
 
 }  // namespace pfdm
