@@ -125,7 +125,7 @@ TEST(UnevenScatter, WidensIntervalsOnce) {
   std::mt19937_64 engine(5);
   std::vector<double> noise = noisy_bar::noise("white", n, engine);
   const std::vector<double> size = forces();
-  for (std::size_t i = 0; i < n; ++i) noise[i] *= 0.05 + size[i];
+  for (std::size_t i = 0; i < n; ++i) noise[i] *= 0.02 + std::pow(size[i], 4);
   const FitProblem problem = noisy_bar::problem(noise);
   const FitResult result = fit(problem, {.step = 1e-4});
   const std::vector<FittedRecord> records{{.measured = {}, .size = sizes(size, noise, result), .row = {}}};
@@ -144,7 +144,7 @@ TEST(UnevenScatter, WidensIntervalsOnce) {
 
 // Correlated residuals may leave fewer degrees of freedom, and the standard error as it is.
 TEST(UnevenScatter, OfAWidenedIntervalReachesAsFarAsItsEnds) {
-  FittedParameter p{.estimate = 5.0, .standard_error = 1.0};
+  FittedParameter p{.name = "p", .unit = "1", .estimate = 5.0, .standard_error = 1.0};
   EXPECT_FALSE(reach_of_widened(p));
   widen(p, 1.0, 10.0);
   ASSERT_TRUE(reach_of_widened(p));
