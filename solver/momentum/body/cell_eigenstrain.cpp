@@ -5,9 +5,9 @@
 namespace pfdm {
 
 bool shears_across(const Tensor& eigenstrain, const Vector& plane_normal) {
-  constexpr double close_to_zero = 1e-9;  // of the vector's part, relative
+  constexpr double close_to_zero = 1e-9;  // relative to the whole: its part across may be nothing but rounding
   const Vector strain = eigenstrain * plane_normal;
-  return (strain - plane_normal.dot(strain) * plane_normal).norm() > close_to_zero * strain.norm();
+  return (strain - plane_normal.dot(strain) * plane_normal).norm() > close_to_zero * eigenstrain.norm();
 }
 
 bool CellEigenstrain::set(const Mesh& mesh, const VolumeLoads& loads, std::optional<double> t,

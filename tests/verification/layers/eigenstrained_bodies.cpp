@@ -2,6 +2,7 @@
 // rigid walls; a sphere that does not fit its hole (Eshelby, Proc. R. Soc. A 241 (1957) 376: a mean strain e in the
 // sphere, displacement A r inside, A a^3/r^2 outside, A = 3 K e/(3 K + 4 mu), K of the sphere and mu of the matrix).
 
+#include "mesh/generators/cylinder_sector.h"
 #include "mesh/generators/sphere_sector.h"
 #include "physics/materials/hyperelastic.h"
 #include "tests/verification/bar.h"
@@ -132,6 +133,40 @@ TEST(Eigenstrains, SphereThatDoesNotFit) {
     }
     EXPECT_LT(errors[1], 0.6 * errors[0]);
   }
+}
+
+// A tube between rigid ends that expands along the radius alone: u = A r + B/r + C r ln r, C = e mu/(lambda + 2 mu), A
+// and B by its free surfaces. What it shears across the sector is rounding.
+TEST(Eigenstrains, TubeThatExpandsAlongTheRadius) {
+  constexpr double a = 1.0, b = 3.0, e = 1e-3;
+  const double M = epoxy.lambda + 2.0 * epoxy.mu, C = e * epoxy.mu / M;
+  // s_rr = 2 (lambda + mu) A - 2 mu B/r^2 + stress(r)
+  const auto stress = [&](double r) { return C * (M * (std::log(r) + 1.0) + epoxy.lambda * std::log(r)) - M * e; };
+  const double B = (stress(b) - stress(a)) / (2.0 * epoxy.mu * (1.0 / (b * b) - 1.0 / (a * a)));
+  const double A = (2.0 * epoxy.mu * B / (a * a) - stress(a)) / (2.0 * (epoxy.lambda + epoxy.mu));
+  const auto exact = [&](double r) { return A * r + B / r + C * r * std::log(r); };
+  std::vector<double> errors;
+  for (const Index n : {10, 20}) {
+    const Mesh mesh = make_cylinder_sector({.azimuth = 1.0 / static_cast<double>(n),
+                                            .inner_radius = a,
+                                            .radius = {{b - a, n, 1.0}},
+                                            .height = {{0.2, 2, 1.0}}});
+    FractureModel model = elastic_model(
+        {epoxy}, {axisymmetric_on("front"), axisymmetric_on("back"), symmetry_on("bottom"), symmetry_on("top")});
+    model.regions[0].eigenstrain = std::make_shared<const LoadField<Tensor>>([](const Vector& x, double t) -> Tensor {
+      const Vector outwards = Vector(x.x(), x.y(), 0.0).normalized();
+      return t * e * outwards * outwards.transpose();
+    });
+    FractureRun run(mesh, model, {.equilibrium_tolerance = 1e-10},
+                    {.initial_increment = 1.0, .maximum_increment = 1.0, .stops = {}});
+    const OutputFields fields = run.output(run_to_end(run, [](const FractureState&, const StepReport&) {}));
+    errors.push_back(relative_error(
+        mesh, [&](Index c) { return fields.displacement[c]; },
+        [&](Index c) { return Vector(exact(mesh.cell_centre[c].x()), 0.0, 0.0); }, [](Index) { return true; }));
+    report_row(fmt::format("{} cells", n), {{"u", errors.back()}});
+  }
+  EXPECT_LT(errors[1], 0.005);
+  EXPECT_LT(errors[1], 0.4 * errors[0]);
 }
 
 // A bar that shrinks between walls breaks as one that is pulled by as much.
