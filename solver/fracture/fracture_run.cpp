@@ -13,6 +13,7 @@
 #include "solver/fracture/spread_damage.h"
 #include "solver/fracture/staggered.h"
 #include "solver/fracture/unconverged.h"
+#include "solver/fracture/words/unbalanced_force.h"
 #include "solver/momentum/body/rigid_motion.h"
 #include "solver/parallel.h"
 
@@ -47,6 +48,7 @@ struct FractureRun::Parts {
   SpreadDamage spread_damage;
   RateResolution rate_resolution;
   FatigueWork fatigue_work;
+  UnbalancedForce unbalanced_force;
   std::unique_ptr<BodyHeat> heat;
   Index krylov_iterations = 0, staggered_iterations = 0;
 
@@ -144,6 +146,11 @@ struct FractureRun::Parts {
     for (const std::string& remark : {unstable, unresolved, residual, staggered.fatigue().remark(fatigue_work, state)})
       if (!remark.empty()) remarks.push_back(remark);
     StepReport result = report(state, outcome, increment);
+    if (!model.motion.any() && !model.has_body_force())
+      if (const std::string remark =
+              unbalanced_force.remark(unknowns, state.boundary_force, state.load, settings.equilibrium_tolerance);
+          !remark.empty())
+        remarks.push_back(remark);
     result.remarks = std::move(remarks);
     return result;
   }

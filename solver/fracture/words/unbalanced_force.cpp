@@ -1,0 +1,29 @@
+#include "solver/fracture/words/unbalanced_force.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace pfdm {
+
+std::string UnbalancedForce::remark(const Unknowns& unknowns, std::span<const Vector> on_faces, double load,
+                                    double tolerance) {
+  constexpr double tolerable = 5e-3;
+  Vector sum = Vector::Zero();
+  double all = 0.0;
+  for (const Vector& on_face : on_faces) {
+    const Vector force = unknowns.is_axisymmetric() ? Vector(0.0, 0.0, on_face.z()) : on_face;
+    sum += force;
+    all += force.norm();
+  }
+  greatest_ = std::max(greatest_, 0.5 * all);
+  const double share = greatest_ > 0.0 ? sum.norm() / greatest_ : 0.0;
+  if (!(share > std::max(tolerable, 2.0 * said_))) return "";
+  said_ = share;
+  return fmt::format(
+      "load {:.4g}: the forces on the body are {:.2g} % out of balance, as where stiff parts that are moved hold soft "
+      "ones; forces and stresses err by as much or more. Give [solver] equilibrium_tolerance = {:.0e}",
+      load, 100.0 * share, std::max(1e-12, 1e-5 * std::min(tolerance, 1e-6)));
+}
+
+}  // namespace pfdm
