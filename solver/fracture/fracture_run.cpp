@@ -12,8 +12,8 @@
 #include "solver/fracture/rate_resolution.h"
 #include "solver/fracture/spread_damage.h"
 #include "solver/fracture/staggered.h"
+#include "solver/fracture/unbalanced_force.h"
 #include "solver/fracture/unconverged.h"
-#include "solver/fracture/words/unbalanced_force.h"
 #include "solver/momentum/body/rigid_motion.h"
 #include "solver/parallel.h"
 

@@ -1,4 +1,4 @@
-#include "solver/fracture/words/unbalanced_force.h"
+#include "solver/fracture/unbalanced_force.h"
 
 #include <fmt/format.h>
 
