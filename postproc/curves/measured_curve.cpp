@@ -64,6 +64,21 @@ InputError other_sign(const std::vector<double>& x) {
       x.front(), x.back()));
 }
 
+/// Whether the rows go down from the greatest displacement to the least.
+bool runs_backwards(const std::vector<double>& x, double jitter) {
+  const auto [least, most] = std::ranges::minmax(x);
+  const std::vector<double> turned(x.rbegin(), x.rend());
+  const bool is_turned = x.front() >= most - jitter && x.back() <= least + jitter && most - least > jitter;
+  return is_turned && 2 * envelope_of(turned, jitter).size() > x.size();
+}
+
+InputError backwards(const std::vector<double>& x) {
+  return InputError(
+      fmt::format("the displacements fall from the first row, {}, to the last, {}: the rows run backwards; "
+                  "sort the file by displacement",
+                  quantity_text(x.front(), "m"), quantity_text(x.back(), "m")));
+}
+
 InputError falling(const std::vector<double>& x, double jitter, double moved) {
   std::size_t row = 1;
   while (!(x[row] < x[row - 1])) ++row;
@@ -152,6 +167,7 @@ std::vector<std::string> MeasuredCurve::treatment() const {
 MeasuredCurve prepared(SampledCurve recorded, const Preparation& preparation, const SetUp& set_up) {
   MeasuredCurve measured{.as_recorded = recorded, .curve = std::move(recorded), .set_up = set_up};
   if (has_other_sign(measured.curve.x, preparation.jitter)) throw other_sign(measured.curve.x);
+  if (runs_backwards(measured.curve.x, preparation.jitter)) throw backwards(measured.curve.x);
   if (preparation.envelope) take_envelope(measured, preparation.jitter);
   take_jitter(measured, preparation.jitter);
   if (preparation.toe) take_toe(measured, *preparation.toe);
@@ -242,45 +258,6 @@ std::string missed_origin_text(const MissedOrigin& missed, const std::string& sp
       "an offset or a toe; see offset, force_offset and toe of [experiment]",
       specimen, quantity_text(missed.measured, "m", 3), quantity_text(missed.error, "m", 2),
       quantity_text(missed.computed, "m", 3));
-}
-
-std::optional<Slack> slack_at_start(const SampledCurve& measured) {
-  constexpr double unloaded = 0.02, rise_from = 0.05, rise_to = 0.4, significant = 4.0;
-  const auto peak = static_cast<std::size_t>(std::ranges::max_element(measured.y) - measured.y.begin());
-  const double largest = measured.y.empty() ? 0.0 : measured.y[peak];
-  std::vector<double> x, y;  // of the rise
-  Slack slack{.from = rise_from * largest, .to = rise_to * largest};
-  std::size_t first = 0;
-  while (first < peak && measured.x[first] < 0.0) ++first;
-  for (std::size_t i = first; i < peak && measured.y[i] <= slack.to; ++i) {
-    if (measured.y[i] < slack.from) continue;
-    x.push_back(measured.x[i]);
-    y.push_back(measured.y[i]);
-  }
-  const auto line = straight_line(x, y, 0.0);
-  if (!line) return std::nullopt;
-  slack.origin = line->zero;
-  slack.error = line->zero_error;
-  for (std::size_t i = first; i < peak && measured.x[i] < slack.origin; ++i, ++slack.n_rows) {
-    if (std::abs(measured.y[i]) > unloaded * largest) return std::nullopt;
-    slack.until = measured.x[i];
-  }
-  const double length = slack.origin - measured.x[first];
-  const bool is_slack = slack.n_rows >= 3 && length > significant * slack.error &&
-                        length > noticeable_origin * (measured.x[peak] - measured.x[first]);
-  return is_slack ? std::optional(slack) : std::nullopt;
-}
-
-std::optional<std::string> doubt_of_origin(const SampledCurve& measured, const SampledCurve& computed, double from,
-                                           double to) {
-  if (const auto slack = slack_at_start(measured))
-    return fmt::format(
-        "{} begins with slack: {} rows up to {} are at zero force, and the rise after them meets it at {} (standard "
-        "error {}); toe = [\"{}\", \"{}\"] of [experiment] makes that the origin",
-        measured.name, slack->n_rows, quantity_text(slack->until, "m", 3), quantity_text(slack->origin, "m"),
-        quantity_text(slack->error, "m", 2), quantity_text(slack->from, "N", 3), quantity_text(slack->to, "N", 3));
-  const auto missed = missed_origin(measured, computed, from, to);
-  return missed ? std::optional(missed_origin_text(*missed, measured.name)) : std::nullopt;
 }
 
 }  // namespace pfdm

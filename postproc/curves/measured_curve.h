@@ -86,20 +86,4 @@ std::optional<MissedOrigin> missed_origin(const SampledCurve& measured, const Sa
 /// A sentence, with what may be done.
 std::string missed_origin_text(const MissedOrigin& missed, const std::string& specimen);
 
-/// Displacement at zero force, with which a record begins before the specimen carries.
-struct Slack {
-  std::size_t n_rows = 0;          ///< at zero force: within 2 % of the largest
-  double until = 0.0;              ///< displacement of the last of them [m]
-  double origin = 0.0, error = 0;  ///< where the rise behind them meets zero force, its standard error [m]
-  double from = 0.0, to = 0.0;     ///< forces between which the rise was taken [N]
-};
-/// Three rows at least, none of negative displacement, that end where the rise begins: a toe, which bends, is none.
-/// Nothing where the origin is not significantly beyond the first row, or by less than 2 % of the way to the largest
-/// force.
-std::optional<Slack> slack_at_start(const SampledCurve& measured);
-
-/// Says that the specimen's curve begins with slack, or else misses the origin, and with which keys that is taken out.
-std::optional<std::string> doubt_of_origin(const SampledCurve& measured, const SampledCurve& computed, double from,
-                                           double to);
-
 }  // namespace pfdm

@@ -11,6 +11,14 @@
 #include <string_view>
 
 namespace pfdm {
+namespace {
+
+/// 3 of 123.4, -1 of 0.0123.
+int places_before_point(double value) {
+  return value == 0.0 ? 1 : static_cast<int>(std::floor(std::log10(std::abs(value)))) + 1;
+}
+
+}  // namespace
 
 int digits_of_interval(double lower, double upper, int least) {
   constexpr int of_width = 3, most = 12;
@@ -22,8 +30,24 @@ int digits_of_interval(double lower, double upper, int least) {
 
 std::string interval_text(double lower, double upper, double confidence, int digits) {
   if (!std::isfinite(lower) || !std::isfinite(upper)) return "no interval";
+  return fmt::format("{:g} % between {}", 100.0 * confidence, ends_text(lower, upper, " and ", digits));
+}
+
+std::string ends_text(double lower, double upper, const std::string& between, int digits) {
+  constexpr int longest = 6;  // of numbers before the point that are written out
   digits = digits_of_interval(lower, upper, digits);
-  return fmt::format("{:g} % between {:.{}g} and {:.{}g}", 100.0 * confidence, lower, digits, upper, digits);
+  digits = std::max(digits, std::min(places_before_point(std::max(std::abs(lower), std::abs(upper))), longest));
+  return fmt::format("{:.{}g}{}{:.{}g}", lower, digits, between, upper, digits);
+}
+
+std::string value_text(double value, double lower, double upper) {
+  constexpr int alone = 4, most = 6;
+  if (!std::isfinite(lower) || !std::isfinite(upper)) return fmt::format("{:.{}g}", value, alone);
+  const int behind =
+      digits_of_interval(lower, upper, 3) - places_before_point(std::max(std::abs(lower), std::abs(upper)));
+  const int before = places_before_point(value);
+  const int digits = std::clamp(before + behind, std::clamp(before, 1, most), most);
+  return fmt::format("{:.{}g}", value, digits);
 }
 
 ScaledUnit unit_of_estimate(double estimate, const std::string& unit) {
@@ -36,7 +60,8 @@ ScaledUnit unit_of_estimate(double estimate, const std::string& unit) {
 
 std::string estimate_text(const FittedParameter& p, double confidence) {
   const ScaledUnit unit = unit_of_estimate(p.estimate, p.unit);
-  return fmt::format("{:.6g}{}{}, {}", unit.factor * p.estimate, unit.name.empty() ? "" : " ", unit.name,
+  return fmt::format("{}{}{}, {}", value_text(unit.factor * p.estimate, unit.factor * p.lower, unit.factor * p.upper),
+                     unit.name.empty() ? "" : " ", unit.name,
                      interval_text(unit.factor * p.lower, unit.factor * p.upper, confidence));
 }
 

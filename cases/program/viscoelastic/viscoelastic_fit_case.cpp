@@ -3,6 +3,7 @@
 #include "cases/program/input/fields/csv_columns.h"
 #include "cases/program/studies/fit/material_tests.h"
 #include "cases/program/viscoelastic/viscoelastic_keys.h"
+#include "physics/quantity_text.h"
 
 #include <fmt/format.h>
 
@@ -116,6 +117,18 @@ void sort_by_frequency(ViscoelasticExperiment& experiment) {
   experiment.angular_frequencies = sorted(experiment.angular_frequencies);
 }
 
+void require_positive(const ConfigTable& test, const std::vector<double>& angular_frequencies,
+                      const std::vector<double>& storage) {
+  const auto least = std::ranges::min_element(storage);
+  if (*least > 0.0) return;
+  const double frequency =
+      angular_frequencies[static_cast<std::size_t>(least - storage.begin())] / (2.0 * std::numbers::pi);
+  throw test.at("storage_modulus")
+      .error(fmt::format("a storage modulus must be positive; that at {} is {}: leave out what the instrument did not "
+                         "measure, as an empty entry",
+                         quantity_text(frequency, "Hz"), quantity_text(*least, "Pa")));
+}
+
 void read_dma(const ConfigTable& test, const CsvTable& file, ViscoelasticExperiment& experiment) {
   refuse(test, {"strain", "stress", "controlled", "ramp", "time", "time_unit"},
          "a test with a frequency is DMA: it has no history of strain and stress");
@@ -135,8 +148,8 @@ void read_dma(const ConfigTable& test, const CsvTable& file, ViscoelasticExperim
   sort_by_frequency(experiment);
   if (!(experiment.angular_frequencies.front() > 0.0)) throw test.at("frequency").error("frequencies must be positive");
   for (const Channel& channel : experiment.channels)
-    if (channel.quantity == MeasuredQuantity::storage_modulus && !(std::ranges::min(channel.values) > 0.0))
-      throw test.at("storage_modulus").error("a storage modulus must be positive");
+    if (channel.quantity == MeasuredQuantity::storage_modulus)
+      require_positive(test, experiment.angular_frequencies, channel.values);
 }
 
 void read_history(const ConfigTable& test, const CsvTable& file, ViscoelasticExperiment& experiment) {

@@ -101,6 +101,17 @@ void set_first_guess(const ViscoelasticFitCase& fit, FitFindings& findings) {
       if (guess.name == p.name) p.first_guess = guess.first;
 }
 
+/// Of a relaxed modulus that has been estimated as nothing beside the branches.
+std::optional<std::string> doubt_of_flow(const ViscoelasticFit& fit) {
+  constexpr double nothing = 1e-6;
+  if (std::ranges::count(fit.parameters, "young_modulus", &FitParameter::name) == 0) return std::nullopt;
+  double branches = 0.0;
+  for (const auto& branch : fit.law.shear) branches += branch.modulus;
+  if (!(fit.law.relaxed.mu < nothing * branches)) return std::nullopt;
+  return "the relaxed modulus is zero as far as the tests tell: the material flows, or relaxes on after the longest of "
+         "them; with estimate = [\"shear_branches\"] of [fit] the young_modulus of [material], a small one, is kept";
+}
+
 FitFindings judged_tests(const ViscoelasticFitCase& fit, const ViscoelasticIdentification& found) {
   FitFindings findings = findings_of(found.fit.parameters, found.fit.result);
   set_first_guess(fit, findings);
@@ -114,8 +125,9 @@ FitFindings judged_tests(const ViscoelasticFitCase& fit, const ViscoelasticIdent
   if (model_error && !is_sound(findings.verdict))
     findings.reasons.push_back(
         fmt::format("a Prony series of {} shear branch{}, the same in all tests, is the wrong model for these data, "
-                    "which it misses by up to {:.2g} %",
+                    "which it misses by up to {:.2g} %; tests at several temperatures are first shifted to one",
                     found.fit.law.shear.size(), found.fit.law.shear.size() == 1 ? "" : "es", 100.0 * misfit));
+  if (const auto flow = doubt_of_flow(found.fit)) question(findings, *flow);
   const std::vector<FittedRecord> records = records_of_tests(fit, found);
   doubt_stray_row(found.fit.result, records, negligible_residual, findings);
   widen_for_uneven_scatter(found.fit.result, records, negligible_residual,

@@ -21,6 +21,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr double clearly_less = 1.0 / 3.0;
+constexpr double much = 0.1;  // of the response
 constexpr int windows = 20;
 
 struct Hypothesis {
@@ -91,10 +92,55 @@ Hypothesis of_scale(const VibrationRecord& record) {
           [factor](VibrationRecord r) { return scaled(std::move(r), factor); }};
 }
 
+/// The sine of a frequency that a channel holds, by least squares.
+VectorXd sine_in(const VectorXd& channel, double rate, double frequency) {
+  const VectorXd phase = VectorXd::LinSpaced(channel.size(), 0.0, static_cast<double>(channel.size() - 1)) *
+                         (2.0 * std::numbers::pi * frequency / rate);
+  MatrixXd waves(channel.size(), 2);
+  waves.col(0) = phase.array().cos();
+  waves.col(1) = phase.array().sin();
+  return waves * scaled_least_squares(waves, channel);
+}
+
+/// The frequency within half a hertz of that of the mains at which a channel has most: by sums over a 20th of a second
+/// each of the channel turned back by the nominal one.
+double mains_frequency(const VectorXd& channel, double rate, double mains) {
+  constexpr double drift = 0.5, lines_between = 4.0, second_in_sums = 20.0;
+  const auto length = static_cast<Eigen::Index>(rate / second_in_sums);
+  const Eigen::Index n_sums = channel.size() / length;
+  Eigen::VectorXcd sums = Eigen::VectorXcd::Zero(n_sums);
+  for (Eigen::Index i = 0; i < n_sums * length; ++i)
+    sums[i / length] += channel[i] * std::polar(1.0, -2.0 * std::numbers::pi * mains * static_cast<double>(i) / rate);
+  const int n = static_cast<int>(std::ceil(drift * lines_between * static_cast<double>(channel.size()) / rate));
+  double best = mains, most = 0.0;
+  for (int k = -n; k <= n; ++k) {
+    const double off = drift * k / n;
+    std::complex<double> sum = 0.0;
+    for (Eigen::Index b = 0; b < n_sums; ++b)
+      sum += sums[b] * std::polar(1.0, -2.0 * std::numbers::pi * off * static_cast<double>(b * length) / rate);
+    if (!(std::abs(sum) > most)) continue;
+    most = std::abs(sum);
+    best = mains + off;
+  }
+  return best;
+}
+
+Hypothesis of_hum(const VibrationRecord& record, double mains, bool of_relative) {
+  const double frequency = mains_frequency(of_relative ? record.relative : record.base, record.rate, mains);
+  return {fmt::format("the {} channel has a hum of the mains, {:.4g} Hz", of_relative ? "relative" : "base", frequency),
+          "taken out", [frequency, of_relative](VibrationRecord r) {
+            VectorXd& humming = of_relative ? r.relative : r.base;
+            humming -= sine_in(humming, r.rate, frequency);
+            return r;
+          }};
+}
+
 std::vector<Hypothesis> hypotheses(const VibrationRecord& record) {
   std::vector<Hypothesis> all{
-      {"the sign of one channel is reversed", "turned", [](VibrationRecord r) { return scaled(std::move(r), -1.0); }},
-      {"the relative channel holds the mass's own (absolute) acceleration", "the base's subtracted",
+      {"the sign of one channel is reversed (relative_unit = \"-1 m/s^2\" of the record turns it)", "turned",
+       [](VibrationRecord r) { return scaled(std::move(r), -1.0); }},
+      {"the relative channel holds the mass's own (absolute) acceleration (acceleration = \"absolute\" of the record)",
+       "the base's subtracted",
        [](VibrationRecord r) {
          r.relative -= r.base;
          return r;
@@ -104,6 +150,9 @@ std::vector<Hypothesis> hypotheses(const VibrationRecord& record) {
          return r;
        }}};
   if (best_scale(record) > 0.0) all.push_back(of_scale(record));
+  for (const double mains : {50.0, 60.0})
+    if (mains < record.rate / 2.0)
+      for (const bool of_relative : {true, false}) all.push_back(of_hum(record, mains, of_relative));
   for (const double size : {0.25, 0.5, 1.0, 1.5, 2.0})
     for (const double samples : {size, -size})
       all.push_back({fmt::format("the {} channel is {:g} sample{} behind the other",
@@ -164,19 +213,19 @@ std::vector<double> explained_by_motion(const VibrationRecord& record) {
   return explained;
 }
 
-/// Whether undoing a fault leaves a third of the misfit at most.
+/// Whether undoing a fault leaves a third of the misfit at most, and of the response where no model fitted.
 bool explains(double after, double misfit) {
-  return after < 1.0 && (!std::isfinite(misfit) || after < clearly_less * misfit);
+  return after < 1.0 && after < clearly_less * (std::isfinite(misfit) ? misfit : 1.0);
 }
 
-/// The channels put in step where one of them has lost samples.
-std::optional<std::string> lost_samples_of(const VibrationRecord& record, double misfit,
+/// The channels put in step where one of them has lost samples. `least`: the misfit that is to fall by two thirds.
+std::optional<std::string> lost_samples_of(const VibrationRecord& record, double misfit, double least,
                                            const ModelStructure& structure, int order,
                                            const IdentificationSettings& settings) {
   const auto lost = lost_samples(record, structure.stiffness_order);
   if (!lost) return std::nullopt;
   const double after = output_misfit(lost->longer, structure, order, settings);
-  if (!explains(after, misfit)) return std::nullopt;
+  if (!explains(after, least)) return std::nullopt;
   const int n = std::abs(lost->number);
   const std::string what = lost->time == 0.0 ? fmt::format("the {} channel is {} samples behind the other",
                                                            lost->number < 0 ? "relative" : "base", n)
@@ -200,7 +249,9 @@ std::optional<std::string> fault_of(const VibrationRecord& record, double misfit
     best = h;
   }
   const double after = best ? output_misfit(best->undo(record), structure, order, settings) : misfit;
-  if (!best || !explains(after, misfit)) return lost_samples_of(record, misfit, structure, order, settings);
+  if (!best || !explains(after, misfit)) return lost_samples_of(record, misfit, misfit, structure, order, settings);
+  if (after > much)  // half explained, as a skew of five samples is by two
+    if (auto lost = lost_samples_of(record, misfit, after, structure, order, settings)) return lost;
   return fmt::format("{}: {}, the misfit falls from {:.3g} to {:.3g}", best->fault, best->undone, misfit, after);
 }
 

@@ -37,7 +37,11 @@ void check_finite(const char* channel, const VectorXd& x, Faults& faults) {
 
 void check_time(const RawRecord& r, Faults& faults) {
   if (!r.time) {
-    if (!r.rate) faults.push_back({"no_rate", "there is neither a column of times nor a sampling rate"});
+    if (!r.rate)
+      faults.push_back(
+          {"no_rate",
+           "there is neither a column of times nor a sampling rate: time = \"NAME\" of the record names the "
+           "column, or rate = \"10 kHz\" states it"});
     return;
   }
   const VectorXd& t = *r.time;

@@ -105,5 +105,16 @@ TEST(StartOfCurveFit, CheckWarnsOfAStartOutsideTheBounds) {
   EXPECT_NE(outcome.out.find("is outside these bounds; pfdm fit refuses this"), std::string::npos) << outcome.out;
 }
 
+TEST(CurveFit, ForcesOfTheOtherSignAreRefusedBeforeTheFit) {
+  const BarFit fit(
+      replaced(bar_fit, "force = { column = \"force_N\" }", "force = { column = \"force_N\", factor = -1 }"));
+  const Outcome outcome = run({"fit", fit.path()});
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_NE(outcome.err.find("the forces of \"one\" have the other sign than the computed ones of the first guess; "
+                             "factor = 1 turns them"),
+            std::string::npos)
+      << outcome.err;
+}
+
 }  // namespace
 }  // namespace pfdm::this_file

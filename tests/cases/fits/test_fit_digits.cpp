@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace pfdm::this_file {
 namespace {
 
@@ -13,6 +15,17 @@ TEST(FitDigits, TellTheEndsOfAnIntervalApart) {
   EXPECT_EQ(interval_text(350.2, 441.9, 0.95, 4), "95 % between 350.2 and 441.9");
   EXPECT_EQ(interval_text(-1e-3, 2e3, 0.95, 4), "95 % between -0.001 and 2000");
   EXPECT_EQ(interval_text(5.0, 5.0, 0.95, 4), "95 % between 5 and 5");
+}
+
+TEST(FitDigits, AreThoseThatTheIntervalWarrants) {
+  EXPECT_EQ(interval_text(5956.47, 6030.75), "95 % between 5956.5 and 6030.8");
+  EXPECT_EQ(value_text(5995.06, 5956.47, 6030.75), "5995.1");
+  EXPECT_EQ(interval_text(-3788.21, 3674.74), "95 % between -3788 and 3675");
+  EXPECT_EQ(value_text(18.616, -3788.21, 3674.74), "19");
+  EXPECT_EQ(interval_text(350.2, 441.9), "95 % between 350.2 and 441.9");
+  EXPECT_EQ(value_text(392.1234, 350.2, 441.9), "392.1");
+  EXPECT_EQ(value_text(47.7433, std::nan(""), std::nan("")), "47.74");
+  EXPECT_EQ(ends_text(0.08312, 0.4, " (the bound) and "), "0.0831 (the bound) and 0.4");
 }
 
 TEST(FitDigits, OfATableHaveOneUnit) {

@@ -54,6 +54,7 @@ TEST(Units, ReadsMultiplesOfGravity) {
 TEST(Units, SaysWhatWasFoundAndWhatIsDue) {
   EXPECT_EQ(message_of("20 um", dimension::stress), "\"20 um\" is a length; expected a stress, as in \"75 MPa\"");
   EXPECT_EQ(message_of("20", dimension::length), "\"20\" has no unit; expected a length, as in \"20 um\"");
+  EXPECT_DOUBLE_EQ(parse_quantity("1.5e-4", dimension::number), 1.5e-4);  // none is due
   EXPECT_EQ(message_of("20 parsnips", dimension::length),
             "\"20 parsnips\": the unit \"parsnips\" is not known; expected a length, as in \"20 um\"");
   EXPECT_EQ(message_of("fast", dimension::length),

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <string>
 
 namespace pfdm::this_file {
@@ -70,6 +71,46 @@ TEST(ViscoelasticCase, AModulusThatIsHeldStays) {
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_NE(content_of(fit.directory.results() / "case.fitted.toml").find("young_modulus = \"1 MPa\""),
             std::string::npos);
+}
+
+TEST(ViscoelasticCase, ANegativeStorageModulusIsNamed) {
+  const BulkFitCase fit;
+  fit.directory.write("dma.csv", "f,G1,tan\nrad/s,MPa,-\n6.2831853,1,0.1\n62.831853,-2,0.2\n");
+  const Outcome outcome = run({"check", fit.directory.path().string()});
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_NE(outcome.err.find("a storage modulus must be positive; that at 10 Hz is -2 MPa"), std::string::npos)
+      << outcome.err;
+}
+
+/// A Maxwell liquid over frequency: 1 MPa, 1 s.
+std::string liquid() {
+  std::string text = "f,G1,tan\nrad/s,MPa,-\n";
+  for (int i = -20; i <= 20; ++i) {
+    const double w = std::pow(10.0, 0.1 * i), scatter = 1.0 + 0.01 * std::sin(7.0 * i);
+    text += std::to_string(w) + "," + std::to_string(scatter * w * w / (1.0 + w * w)) + "," + std::to_string(1.0 / w) +
+            "\n";
+  }
+  return text;
+}
+
+// Without a modulus at rest the fit says that the material flows, and that key which keeps one makes it sound.
+TEST(ViscoelasticCase, ALiquidIsNamed) {
+  const std::string alone =
+      replaced(bulk_fit.substr(0, bulk_fit.find("[[fit.experiments]]")) + bulk_fit.substr(bulk_fit.rfind("[[fit.exp")),
+               "branches = [1, 5]", "branches = [1, 2]");
+  const std::string of_file = replaced(alone, "young_modulus = [\"10 kPa\", \"1 GPa\"]\n", "");
+  const BulkFitCase fit(of_file);
+  fit.directory.write("dma.csv", liquid());
+  const Outcome outcome = run({"fit", fit.directory.path().string()});
+  EXPECT_NE(outcome.err.find("the relaxed modulus is zero as far as the tests tell: the material flows"),
+            std::string::npos)
+      << outcome.err;
+  EXPECT_NE(outcome.out.find("verdict: questionable"), std::string::npos) << outcome.out;
+  fit.directory.write("case.toml", replaced(replaced(bulk_case + of_file, "[fit.bounds]\n", ""), "branches = [1, 2]",
+                                            "branches = [1, 2]\nestimate = [\"shear_branches\"]")
+                                       .replace(bulk_case.find("\"1 MPa\""), 7, "\"1 Pa\""));
+  const Outcome kept = run({"fit", fit.directory.path().string()});
+  EXPECT_NE(kept.out.find("verdict: sound"), std::string::npos) << kept.out << kept.err;
 }
 
 TEST(ViscoelasticCase, AStressOfTheOtherSignIsRefused) {

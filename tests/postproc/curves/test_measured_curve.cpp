@@ -1,5 +1,6 @@
 #include "physics/error.h"
 #include "postproc/curves/measured_curve.h"
+#include "postproc/curves/record_faults.h"
 #include "tests/postproc/temporary_folder.h"
 
 #include <gmock/gmock.h>

@@ -9,6 +9,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <numbers>
+
 namespace pfdm::this_file {
 namespace {
 
@@ -50,6 +53,24 @@ TEST_P(FaultyRecord, WithASkewOfASampleIsNamed) {
   r = right;
   r.base.tail(r.n() - 1) = right.base.head(r.n() - 1);
   expect_named(r, "the base channel is 1 sample behind");
+}
+
+// Two samples, tried by themselves, explain most of five.
+TEST_P(FaultyRecord, WithASkewOfFiveSamplesIsNamed) {
+  VibrationRecord r = record();
+  const VibrationRecord right = r;
+  r.relative.tail(r.n() - 5) = right.relative.head(r.n() - 5);
+  expect_named(r, "the relative channel is 5 samples behind");
+}
+
+TEST_P(FaultyRecord, WithAHumOfTheMainsIsNamed) {
+  VibrationRecord r = record();
+  const double size = 0.3 * std::sqrt(r.relative.squaredNorm() / static_cast<double>(r.n()));
+  for (Eigen::Index i = 0; i < r.n(); ++i)
+    r.relative[i] += size * std::sin(2.0 * std::numbers::pi * 49.97 * static_cast<double>(i) / r.rate);
+  const Judged found = judged(r, structure());
+  ASSERT_THAT(found.faults, SizeIs(1));
+  EXPECT_THAT(found.faults[0], HasSubstr("the relative channel has a hum of the mains, 49.9"));
 }
 
 TEST_P(FaultyRecord, WithASkewOfHalfASampleIsNamed) {

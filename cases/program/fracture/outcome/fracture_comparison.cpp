@@ -5,6 +5,7 @@
 #include "physics/quantity_text.h"
 #include "postproc/cohesive/cohesive_law.h"
 #include "postproc/curves/comparison_results.h"
+#include "postproc/curves/record_faults.h"
 #include "postproc/curves/summary.h"
 
 #include <fmt/format.h>

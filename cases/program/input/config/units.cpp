@@ -149,6 +149,7 @@ double parse_quantity(std::string_view text, const Dimension& due) {
   if (unit.size() > 1 && unit[0] == ',' && std::isdigit(static_cast<unsigned char>(unit[1])) != 0)
     throw InputError(fmt::format(
         "\"{}\" has a comma; numbers have a decimal point and no separator of thousands, as in \"0.5 mm\"", text));
+  if (unit.empty() && due.si_unit == dimension::number.si_unit) return value;
   if (unit.empty()) throw InputError(fmt::format("\"{}\" has no unit; {}", text, with_example(due)));
   // "20 30 um" would be multiplied out by UDUNITS; "20 1/s" is meant so.
   if (split_number(unit) && !unit.starts_with("1/"))

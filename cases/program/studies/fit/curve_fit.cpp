@@ -5,6 +5,7 @@
 #include "cases/program/studies/fit/curve_fit_at_work.h"
 #include "cases/program/studies/fit/curve_fit_results.h"
 #include "cases/program/studies/runs/finer_case.h"
+#include "postproc/curves/record_faults.h"
 #include "postproc/files/folder_lock.h"
 #include "solver/calibration/manifold_mapping.h"
 
@@ -200,6 +201,12 @@ bool CurveFit::judge_stage(const DoneStage& done, FitFindings& found) {
                        .finer = on_finer_model(done)});
 }
 
+void CurveFit::check_forces(const MeasuredPoints& points, const SampledCurve& first_curve) {
+  const ModelCurves models = as_recorded_by_all(first_curve, first_, std::nullopt);
+  job_.settings.where.in_context([&] { require_same_sign(models, points, job_.specimens); });
+  for (const std::string& doubt : doubts_of_unit(models, points, job_.specimens)) session_.log.warn(doubt);
+}
+
 FitStage CurveFit::fit_stage(const CurveFitStage& stage) {
   const std::optional<double> until = end_of_runs(stage);
   const SampledCurve first_curve = curve_at(first_, until);
@@ -207,6 +214,7 @@ FitStage CurveFit::fit_stage(const CurveFitStage& stage) {
   MeasuredPoints points = points_of(stage, first_curve);
   select_frames(stage, until, points);
   say(stage, points);
+  check_forces(points, first_curve);
   const FitSettings settings = settings_of(stage, points);
   FittedPoints fitted = fit_points(stage, points, until, settings, problem_of(stage, points, until, model_));
   weigh_specimens(stage, until, settings, points, fitted);

@@ -79,6 +79,8 @@ class CurveFit {
                         CurveModel& model);
   FitSettings settings_of(const CurveFitStage& stage, const MeasuredPoints& points);
   FitStage fit_stage(const CurveFitStage& stage);
+  /// Refuses forces of the other sign than those of the first guess, and warns of those in another unit.
+  void check_forces(const MeasuredPoints& points, const SampledCurve& first_curve);
   /// A fit, and the problem by which it can be doubted: the case itself, or with [fit] `coarse` what the coarse one is
   /// mapped to.
   struct FittedPoints {
@@ -171,7 +173,7 @@ class CurveFit {
   /// A reason where an estimated offset of force contradicts a curve that begins unloaded.
   void suspect_preload(FitFindings& found) const;
   /// Reasons: straight parts beside the computed one, also where the residuals are too few to show it.
-  std::vector<std::string> missed_origins(const SampledCurve& fitted) const;
+  std::vector<std::string> missed_origins(const DoneStage& done, const SampledCurve& fitted) const;
   /// Reasons where the fitted curve lacks an event, or has it elsewhere; in curve_fit_events.cpp.
   void doubt_events(const DoneStage& done, const SampledCurve& fitted, FitFindings& found);
   /// A warning where the load steps about an event of the stage are others with the estimates than those that its

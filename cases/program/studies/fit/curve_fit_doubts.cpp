@@ -5,6 +5,7 @@
 #include "cases/program/studies/fit/interval_trial.h"
 #include "cases/program/studies/runs/finer_case.h"
 #include "physics/quantity_text.h"
+#include "postproc/curves/record_faults.h"
 #include "postproc/fits/record_doubts.h"
 #include "solver/calibration/profile_likelihood.h"
 
@@ -38,15 +39,27 @@ std::vector<FittedRecord> records_of(const MeasuredPoints& points, const std::ve
   return records;
 }
 
+/// Standard deviation of the forces of a specimen [N]: the largest that is stated, else their scatter about the model.
+double scatter_of(const MeasuredPoints& points, const ModelCurves& models, std::size_t specimen) {
+  double stated = 0.0;
+  for (const MeasuredPoints::Point& point : points.points)
+    if (point.specimen == specimen) stated = std::max(stated, point.deviation);
+  return stated > 0.0 ? stated : rms_difference(models.at(specimen), points, specimen);
+}
+
 }  // namespace
 
 void CurveFit::doubt(const DoneStage& done, bool model_error, FitFindings& found) {
   for (std::size_t k = 0; k < done.stage.parameters.size(); ++k) try_compliance(done, k, found);
   const SampledCurve fitted = curve_at(values_, done.until);
-  const std::vector<std::string> origins = missed_origins(fitted);
+  const std::vector<std::string> origins = missed_origins(done, fitted);
   const bool is_tried = model_error && found.verdict != Verdict::failed;
   if (!(is_tried && suspect_law_or_set_up(done, fitted, !origins.empty(), found)))
     for (const std::string& origin : origins) question(found, origin);
+  if (!is_sound(found.verdict))
+    for (std::string& unit : doubts_of_unit(as_recorded_by_all(curve_at(first_, done.until), first_, done.until),
+                                            done.points, job_.specimens))
+      question(found, std::move(unit));
   doubt_events(done, fitted, found);
   doubt_fields(done, found);
   suspect_preload(found);
@@ -129,13 +142,15 @@ void CurveFit::suspect_preload(FitFindings& found) const {
   }
 }
 
-std::vector<std::string> CurveFit::missed_origins(const SampledCurve& fitted) const {
+std::vector<std::string> CurveFit::missed_origins(const DoneStage& done, const SampledCurve& fitted) const {
   std::vector<std::string> reasons;
   const std::vector<SetUp> set_ups = set_ups_at(values_);
-  for (std::size_t s = 0; s < job_.specimens.size(); ++s) {
-    MeasuredCurve specimen = job_.specimens[s];
-    specimen.set_up = set_ups[s];
-    auto doubt = doubt_of_origin(specimen.of_specimen(), fitted, job_.straight_from, job_.straight_to);
+  std::vector<MeasuredCurve> specimens = job_.specimens;
+  const ModelCurves models = as_recorded_by_all(fitted, values_, done.until);
+  for (std::size_t s = 0; s < specimens.size(); ++s) {
+    specimens[s].set_up = set_ups[s];
+    auto doubt = doubt_of_origin(specimens[s].of_specimen(), fitted, job_.straight_from, job_.straight_to);
+    if (!doubt) doubt = doubt_of_rise(specimens, s, fitted, scatter_of(done.points, models, s));
     if (doubt) reasons.push_back(std::move(*doubt));
   }
   return reasons;

@@ -82,21 +82,21 @@ std::vector<ExperimentMisfit> misfits(const CurveFitFindings& found) {
   return result;
 }
 
-std::string end_text(const CaseParameter& p, double end, bool open) {
-  return fmt::format("{:.5g}{}", p.in_file_units(end), open ? " (the bound)" : "");
-}
-
 std::string profile_text(const CaseParameter& p, const FittedParameter& found) {
   if (!found.profile) return "";
-  return fmt::format("; by profile likelihood between {} and {}",
-                     end_text(p, found.profile->lower, found.profile->lower_open),
-                     end_text(p, found.profile->upper, found.profile->upper_open));
+  const std::string bound = " (the bound)";
+  return fmt::format("; by profile likelihood between {}{}",
+                     ends_text(p.in_file_units(found.profile->lower), p.in_file_units(found.profile->upper),
+                               (found.profile->lower_open ? bound : "") + " and "),
+                     found.profile->upper_open ? bound : "");
 }
 
 std::string posterior_text(const CaseParameter& p, const FittedParameter& found) {
   if (!found.posterior) return "";
-  return fmt::format("; posterior: median {:.5g}, between {:.5g} and {:.5g}", p.in_file_units(found.posterior->median),
-                     p.in_file_units(found.posterior->lower), p.in_file_units(found.posterior->upper));
+  const double lower = p.in_file_units(found.posterior->lower), upper = p.in_file_units(found.posterior->upper);
+  return fmt::format("; posterior: median {}, between {}",
+                     value_text(p.in_file_units(found.posterior->median), lower, upper),
+                     ends_text(lower, upper, " and "));
 }
 
 void say_discrepancy(const DiscrepancyFindings& found, Log& log) {
@@ -113,8 +113,9 @@ void say_estimates(const FitFindings& whole, const std::vector<CaseParameter>& p
                       *whole.first_rms));
   for (const FittedParameter& found : whole.parameters) {
     const CaseParameter& p = *std::ranges::find(parameters, found.name, &CaseParameter::name);
-    log.say(fmt::format("  {} = {:.5g} {}, {}{}{}{}, first guess {:.5g}", p.name, p.in_file_units(found.estimate),
-                        p.unit, interval_text(p.in_file_units(found.lower), p.in_file_units(found.upper), 0.95, 5),
+    const double lower = p.in_file_units(found.lower), upper = p.in_file_units(found.upper);
+    log.say(fmt::format("  {} = {} {}, {}{}{}{}, first guess {:.5g}", p.name,
+                        value_text(p.in_file_units(found.estimate), lower, upper), p.unit, interval_text(lower, upper),
                         profile_text(p, found), posterior_text(p, found), moved_text(found),
                         p.in_file_units(found.first_guess)));
   }
