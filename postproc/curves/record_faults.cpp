@@ -164,4 +164,33 @@ std::optional<std::string> doubt_of_rise(const std::vector<MeasuredCurve>& speci
       quantity_text(specimens[s].set_up.offset + apart, "m", 3), s);
 }
 
+std::optional<std::string> doubt_of_specimens(const std::vector<double>& residuals, const MeasuredPoints& measured,
+                                              const std::vector<MeasuredCurve>& specimens) {
+  constexpr double most = 0.7;
+  std::vector<SampledCurve> left(specimens.size());  // residuals as forces
+  for (std::size_t i = 0; i < measured.points.size(); ++i) {
+    const MeasuredPoints::Point& point = measured.points[i];
+    left[point.specimen].x.push_back(point.x);
+    left[point.specimen].y.push_back(residuals[i] * measured.scale(point));
+  }
+  if (left.size() < 2 || std::ranges::any_of(left, [](const SampledCurve& r) { return r.x.empty(); })) return {};
+  const auto n = static_cast<double>(left.size());
+  double all = 0.0, apart = 0.0;
+  for (const double x : left.front().x) {
+    if (std::ranges::any_of(left, [x](const SampledCurve& r) { return x < r.x.front() || x > r.x.back(); })) continue;
+    double sum = 0.0, squares = 0.0;
+    for (const SampledCurve& r : left) {
+      sum += r.at(x);
+      squares += r.at(x) * r.at(x);
+    }
+    all += squares;
+    apart += (squares - sum * sum / n) * n / (n - 1.0);
+  }
+  if (!(apart > most * all)) return std::nullopt;
+  return fmt::format(
+      "the specimens disagree: most of what the model leaves is how far they lie apart, {} rms; fit each by itself, a "
+      "case each, whose estimates show how much specimens scatter",
+      quantity_text(std::sqrt(apart / n / static_cast<double>(left.front().x.size())), "N", 3));
+}
+
 }  // namespace pfdm

@@ -49,4 +49,9 @@ std::vector<std::string> doubts_of_unit(const ModelCurves& models, const Measure
 std::optional<std::string> doubt_of_rise(const std::vector<MeasuredCurve>& specimens, std::size_t s,
                                          const SampledCurve& computed, double scatter);
 
+/// Says that specimens disagree: of residuals that are more than noise the larger part, 70 %, is how far the specimens
+/// lie apart. Over the displacements that all have; nothing of a single one.
+std::optional<std::string> doubt_of_specimens(const std::vector<double>& residuals, const MeasuredPoints& measured,
+                                              const std::vector<MeasuredCurve>& specimens);
+
 }  // namespace pfdm

@@ -14,7 +14,8 @@ namespace {
 using Eigen::VectorXd;
 
 constexpr std::size_t fewest_rows = 8;
-constexpr double negligible = 1e-8;  // of the sum of squares
+constexpr double negligible = 1e-8;     // of the sum of squares
+constexpr double most_leverage = 0.99;  // beyond, a row determines a combination of parameters alone
 
 /// The values of the record that the i-th of all belongs to, and its place among them.
 struct Place {
@@ -80,7 +81,8 @@ std::optional<StrayRow> stray_row(const FitResult& result, const std::vector<std
     if (!stands_out(places[i], 0.5 * std::abs(e))) continue;
     const VectorXd effect = result.inverse_normal * result.derivatives.row(static_cast<Eigen::Index>(i)).transpose();
     const double leverage = result.derivatives.row(static_cast<Eigen::Index>(i)).dot(effect);
-    const double left = std::max(1.0 - leverage, 1e-6);
+    if (!(leverage < most_leverage)) continue;
+    const double left = 1.0 - leverage;
     const double all = result.sum_of_squares, others = std::max(all - e * e / left, negligible * all) / freedom;
     const double sigma = result.noise_is_known ? std::max(std::sqrt(others), 1.0) : std::sqrt(others);
     const double distance = std::abs(e) / (sigma * std::sqrt(left));

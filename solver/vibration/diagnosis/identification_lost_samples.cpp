@@ -92,6 +92,9 @@ std::optional<LostSamples> lost_samples(const VibrationRecord& r, int stiffness_
     }
   }
   if (!found) return std::nullopt;
+  // Windows in which hardly anything happens, as at the beginning of a sweep, do not tell when samples were lost.
+  constexpr double as_little = 1.1;
+  if (left(products(A, base, found->number).rowwise().sum()) < as_little * least) found->time = 0.0;
   found->unexplained = std::sqrt(least / before);
   found->longer = part_of(r, static_cast<Eigen::Index>(std::lround(found->time * r.rate)), found->number);
   return found;

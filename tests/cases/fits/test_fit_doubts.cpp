@@ -121,24 +121,25 @@ const std::string elastic = "[[fit.stages]]\nname = \"elastic\"\nbetween = [\"0 
 constexpr double stiffness_33_GPa = 33e9 / 0.9 * 1e-6 / 20e-3;  // [N/m]
 
 /// Force of the bar of 33 GPa with noise of this deviation [N].
-std::string straight_record(double noise, unsigned seed, int n = 60, double sign = 1.0) {
+std::string straight_record(double noise, unsigned seed, int n = 60, double factor = 1.0) {
   std::mt19937 engine(seed);
   std::normal_distribution<double> normal(0.0, noise);
   std::string text = "# SYNTHETIC\nu_m,F_N,s\n";
   for (int i = 1; i <= n; ++i) {
     const double u = 6e-6 * i / n;
-    text += fmt::format("{},{},{}\n", u, sign * stiffness_33_GPa * u + normal(engine), noise);
+    text += fmt::format("{},{},{}\n", u, factor * stiffness_33_GPa * u + normal(engine), noise);
   }
   return text;
 }
 
-TEST(FitDoubts, AReversedForceIsNoFitAlsoWhereTheNoiseIsStated) {
+TEST(FitDoubts, ForcesInAnotherUnitAreNoFitAlsoWhereTheNoiseIsStated) {
   const TemporaryCase directory(bar_case() + experiment(specimen("one", "deviation = { column = \"s\" }\n")) +
                                 fitted_modulus + elastic);
-  directory.write("one.csv", straight_record(0.05, 1, 60, -1.0));
+  directory.write("one.csv", straight_record(1e-4, 1, 60, 1e-3));
   const json fit = fitted(directory);
   EXPECT_EQ(fit["verdict"], "failed") << fit["reasons"];
   EXPECT_THAT(fit["reasons"].dump(), HasSubstr("times what was measured"));
+  EXPECT_THAT(fit["reasons"].dump(), HasSubstr("times the computed ones of the first guess: the unit or the factor"));
 }
 
 TEST(FitDoubts, SpecimensAreWeightedByTheirOwnScatter) {

@@ -91,6 +91,18 @@ TEST(RecordFaults, RightRisesRaiseNoAlarm) {
   }
 }
 
+TEST(RecordFaults, SpecimensThatDisagreeAreNamedAndAnErrorOfTheModelIsNot) {
+  const std::vector<MeasuredCurve> specimens{record(1.0, 0.0, 1.1, 1), record(1.0, 0.0, 0.9, 2)},
+      alike{record(1.0, 0.0, 1.1, 1), record(1.0, 0.0, 1.1, 2)};
+  const auto doubt = [](const std::vector<MeasuredCurve>& two) {
+    const MeasuredPoints points = points_between({two[0].curve, two[1].curve}, 0.0, 120.0);
+    return doubt_of_specimens(*residuals_of(bar_curve(), points), points, two);
+  };
+  ASSERT_TRUE(doubt(specimens));
+  EXPECT_THAT(*doubt(specimens), HasSubstr("the specimens disagree"));
+  EXPECT_FALSE(doubt(alike));
+}
+
 TEST(RecordFaults, RowsThatRunBackwardsAreNamed) {
   SampledCurve backwards = bar_curve();
   std::ranges::reverse(backwards.x);

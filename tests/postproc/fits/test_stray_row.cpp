@@ -60,6 +60,20 @@ TEST(StrayRow, IsNoneOfNoise) {
   }
 }
 
+// A row that determines a parameter alone lies on the fit whatever was measured there.
+TEST(StrayRow, ThatDeterminesAParameterAloneIsNone) {
+  std::mt19937_64 engine(6);
+  const std::vector<double> noise = noisy_bar::noise("white", n, engine);
+  FitResult result = fitted(noise);
+  std::vector<double> values = record(noise);
+  values[dropped] += 10.0;
+  result.residuals[dropped] = -10.0;
+  result.derivatives.row(dropped).setZero();
+  result.derivatives(dropped, 2) = std::sqrt(1.0 / result.inverse_normal(2, 2));
+  const auto stray = stray_row(result, {values});
+  EXPECT_TRUE(!stray || stray->row != dropped);
+}
+
 // A specimen that breaks a row later than the model is far off it there, but not off the row before.
 TEST(StrayRow, BesideAJumpIsNone) {
   constexpr std::size_t last = 60;

@@ -60,6 +60,9 @@ void CurveFit::doubt(const DoneStage& done, bool model_error, FitFindings& found
     for (std::string& unit : doubts_of_unit(as_recorded_by_all(curve_at(first_, done.until), first_, done.until),
                                             done.points, job_.specimens))
       question(found, std::move(unit));
+  if (is_tried)
+    if (auto apart = doubt_of_specimens(done.result.residuals, done.points, job_.specimens))
+      question(found, std::move(*apart));
   doubt_events(done, fitted, found);
   doubt_fields(done, found);
   suspect_preload(found);
