@@ -130,6 +130,8 @@ TEST(Overrides, KeepTheNumbersOfLines) {
 }
 
 TEST(Overrides, SayWhatIsWrong) {
+  expect_refused_word("mesh.x[0].missing=7 mm",
+                      "or set the table that holds it as a whole, mesh.x[0]={ missing = ... }");
   expect_refused_word("materials.concrete.shear_branches[0].modulus=7 MPa",
                       "the case has no materials.concrete.shear_branches; a list is given as a whole, as "
                       "materials.concrete.shear_branches=[{ modulus = ... }]");

@@ -94,8 +94,11 @@ InputError cannot_be_added(const TomlValue& root, const std::string& key) {
       return InputError(fmt::format("--set {}: {}", key, error.what()));
     }
   }
+  const std::size_t dot = key.find_last_of('.');
   return InputError(fmt::format(
-      "--set {0}: the case has no such key, and it cannot be added from outside: write it into the file", key));
+      "--set {0}: the case has no such key, and it cannot be added from outside: write it into the file, or set the "
+      "table that holds it as a whole, {1}={{ {2} = ... }}",
+      key, key.substr(0, dot), key.substr(dot + 1)));
 }
 
 /// Where a table's further key may stand depends on how the file writes the table: the first way that TOML allows.
