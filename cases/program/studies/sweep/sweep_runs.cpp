@@ -96,7 +96,7 @@ RunSet sweep_runs(const CsvTable& table, const Session& session) {
                             .values = std::move(column.values),
                             .is_key = j < converged});
   }
-  const bool is_of_changes = table.names.at(1) == change_column;
+  const bool is_of_changes = table.names.size() > 1 && table.names[1] == change_column;
   for (std::size_t i = 0; i < table.n_rows(); ++i) {
     RunPlace place = place_of(table, i, session.results);
     if (is_of_changes) place.label = shown_column(table, 1).cell(i);
