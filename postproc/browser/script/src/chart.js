@@ -1,6 +1,6 @@
 // Charts of any curves, also such that run back and forth, drawn by uPlot: zoom by dragging, values under the pointer.
 import uPlot from "uplot";
-import { colour_of, element, file_name, on_size, save, shown } from "./elements.js";
+import { colour_of, element, file_name, on_size, quoted, save, shown } from "./elements.js";
 import { draw_series, key_of, seen_series } from "./series.js";
 
 const height_of = (width) => Math.round(Math.min(460, Math.max(240, 0.6 * width)));
@@ -111,8 +111,6 @@ function nearest(u, chart, seen, reach = 40) {
   });
   return found;
 }
-
-const quoted = (text) => (/[",\n]/.test(text) ? `"${text.replaceAll('"', '""')}"` : text);
 
 /** Columns side by side, two or three for each series. */
 export function csv_of(chart) {

@@ -1,13 +1,6 @@
 // Columns of the runs of a sweep: words, unit, values; what their pictures need.
 import { element } from "./elements.js";
 
-export const svg = (tag, attributes = {}, ...children) => {
-  const made = document.createElementNS("http://www.w3.org/2000/svg", tag);
-  for (const [name, value] of Object.entries(attributes)) made.setAttribute(name, value);
-  made.append(...children);
-  return made;
-};
-
 export const title_of = (column) => (column.unit ? `${column.words} [${column.unit}]` : column.words);
 export const is_number = (v) => v !== null && Number.isFinite(v);
 

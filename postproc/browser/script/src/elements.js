@@ -12,6 +12,14 @@ export function element(tag, attributes = {}, ...children) {
   return made;
 }
 
+/** As element(), of a picture in SVG. */
+export const svg = (tag, attributes = {}, ...children) => {
+  const made = document.createElementNS("http://www.w3.org/2000/svg", tag);
+  for (const [name, value] of Object.entries(attributes)) made.setAttribute(name, value);
+  made.append(...children);
+  return made;
+};
+
 /** The value of a custom property, as "--ink". */
 export const colour_of = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
 
@@ -31,6 +39,9 @@ export function on_size(watched, act) {
   setTimeout(act);
   new ResizeObserver(() => setTimeout(act)).observe(watched);
 }
+
+/** A cell of a CSV file. */
+export const quoted = (text) => (/[",\n]/.test(text) ? `"${text.replaceAll('"', '""')}"` : text);
 
 /** Gives the reader a file. */
 export function save(name, content, type) {

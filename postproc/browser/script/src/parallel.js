@@ -1,7 +1,7 @@
 // The runs of a sweep in parallel coordinates.
-import { choice, ends_of, is_number, svg, title_of } from "./columns.js";
+import { choice, ends_of, is_number, title_of } from "./columns.js";
 import { colour_maps } from "./colours.js";
-import { element, shown } from "./elements.js";
+import { element, shown, svg } from "./elements.js";
 
 /** viridis by the place of a value between the ends; grey for none. */
 function colour_of_value(value, [from, to]) {

@@ -1,8 +1,8 @@
 // The runs of a sweep: a table that sorts, their curves, any figure over any key, parallel coordinates. What the pointer
 // is on is the same run in all of them.
 import { chart_section } from "./chart.js";
-import { choice, ends_of, is_number, svg, title_of } from "./columns.js";
-import { element, save, shown } from "./elements.js";
+import { choice, ends_of, is_number, title_of } from "./columns.js";
+import { element, quoted, save, shown, svg } from "./elements.js";
 import { parallel_section } from "./parallel.js";
 
 /** Also where some runs have no value. */
@@ -68,7 +68,6 @@ function table_section(data, pointer) {
     heads.push(made);
     return made;
   };
-  const quoted = (text) => (/[",\n]/.test(text) ? `"${text.replaceAll('"', '""')}"` : text);
   const csv = () =>
     [
       ["run", ...data.columns.map(title_of)],

@@ -1,6 +1,6 @@
 // Series of a chart: how uPlot draws them, and their key, which points one out and hides others.
 import uPlot from "uplot";
-import { colour_of, element, is_dark } from "./elements.js";
+import { element, is_dark, svg } from "./elements.js";
 import { series_colours } from "./colours.js";
 
 /** What a reader does to the series of a chart: hidden ones, and the one that is pointed out (-1: none). */
@@ -84,20 +84,16 @@ export function draw_series(series, s, seen) {
 
 /** The sign of a series in the key. */
 function mark_of(series) {
-  const svg = document.createElementNS("http://www.w3.org/2000/svg", "svg");
   const is_ring = series.style === "points";
-  const sign = document.createElementNS("http://www.w3.org/2000/svg", is_ring ? "circle" : "line");
-  svg.setAttribute("width", 26);
-  svg.setAttribute("height", 12);
-  const set = (values) => Object.entries(values).forEach(([k, v]) => sign.setAttribute(k, v));
-  if (is_ring) set({ cx: 13, cy: 6, r: 4, fill: "none", "stroke-width": 1.5 });
-  else set({ x1: 0, x2: 26, y1: 6, y2: 6, "stroke-width": series.style === "band" ? 10 : 3 });
-  if (series.style === "dashed") set({ "stroke-dasharray": "7 4" });
-  if (series.style === "band") set({ "stroke-opacity": 0.3 });
-  svg.append(sign);
-  svg.paint = () => sign.setAttribute("stroke", colour_of_series(series));
-  svg.paint();
-  return svg;
+  const sign = is_ring
+    ? svg("circle", { cx: 13, cy: 6, r: 4, fill: "none", "stroke-width": 1.5 })
+    : svg("line", { x1: 0, x2: 26, y1: 6, y2: 6, "stroke-width": series.style === "band" ? 10 : 3 });
+  if (series.style === "dashed") sign.setAttribute("stroke-dasharray", "7 4");
+  if (series.style === "band") sign.setAttribute("stroke-opacity", 0.3);
+  const mark = svg("svg", { width: 26, height: 12 }, sign);
+  mark.paint = () => sign.setAttribute("stroke", colour_of_series(series));
+  mark.paint();
+  return mark;
 }
 
 /**
