@@ -87,7 +87,7 @@ Vector gradient_of(const Mesh& mesh, const FaceField<double>& q, Index c) {
   return gradient;
 }
 
-// int grad theta dV over a cell of a sector: of theta = q e with e turning about the axis.
+// int grad theta dV over a cell: of theta = q e, with e the direction of growth, which turns about an axis.
 Tensor growth_gradient(const Mesh& mesh, const TipRegion& region, const FaceField<double>& q, Index c) {
   Tensor gradient = Tensor::Zero();
   for (const Index f : mesh.faces_of_cell(c))
@@ -126,17 +126,10 @@ Elastic elastic_in(const Mesh& mesh, const OutputFields& output, Index c) {
 // What a cell adds to G, times the length of the front [J/m].
 double release_of(const Mesh& mesh, const OutputFields& output, const TipRegion& region, const FaceField<double>& q,
                   Index c) {
-  if (region.is_about_axis) {
-    const Tensor theta = growth_gradient(mesh, region, q, c);
-    if (theta.squaredNorm() == 0.0) return 0.0;
-    const Elastic elastic = elastic_in(mesh, output, c);
-    return elastic.stress.cwiseProduct(output.gradient[c] * theta).sum() - elastic.energy * theta.trace();
-  }
-  const Vector gradient = gradient_of(mesh, q, c);
+  const Tensor gradient = growth_gradient(mesh, region, q, c);
   if (gradient.squaredNorm() == 0.0) return 0.0;
   const Elastic elastic = elastic_in(mesh, output, c);
-  return (output.gradient[c] * region.direction).dot(elastic.stress * gradient) -
-         elastic.energy * region.direction.dot(gradient);
+  return elastic.stress.cwiseProduct(output.gradient[c] * gradient).sum() - elastic.energy * gradient.trace();
 }
 
 struct Crack {

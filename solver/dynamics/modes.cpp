@@ -141,6 +141,7 @@ std::vector<Mode> lowest_modes(const VibratingBody& body, int count, double tole
     for (std::size_t k = 0; k < pairs.value.size(); ++k)
       modes.push_back(mode_of(body, omega_of(body, pairs.value[k]),
                               with_rigid_part(body, rigid, pairs.value[k], space.combined(pairs.of[k]))));
+    std::ranges::stable_sort(modes, {}, &Mode::omega);  // a pair spreads about its mean
     return modes;
   }
   throw ComputationError(

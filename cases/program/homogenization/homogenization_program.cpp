@@ -96,8 +96,7 @@ std::optional<std::string> words_on_bounds(const HomogenizationCase& homogenizat
   if (K >= (1.0 - rounding) * least) return std::nullopt;
   return fmt::format(
       "K lies {:.2g} % below Hashin and Shtrikman's lower bound, which holds for any arrangement: the mesh makes at "
-      "least "
-      "this error, and in G more. For less: finer cells, as more triangles on each particle ([mesh])",
+      "least this error, and in G more. For less: finer cells, as more triangles on each particle ([mesh])",
       100.0 * (1.0 - K / least));
 }
 
