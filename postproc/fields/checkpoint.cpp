@@ -20,7 +20,7 @@ namespace pfdm {
 namespace {
 
 constexpr std::string_view magic = "PFDMCKPT";
-constexpr std::uint32_t format_version = 17;
+constexpr std::uint32_t format_version = 18;
 constexpr std::size_t size_position = magic.size() + sizeof(format_version);
 constexpr std::size_t header_size = size_position + sizeof(std::uint64_t);
 constexpr std::size_t checksum_size = sizeof(std::uint64_t);
@@ -134,7 +134,7 @@ class FiniteCheck {
 template <class Archive, class State>
 void archive_state(Archive& archive, State& state) {
   auto& [step, load, increment, displacement, damage, driving_energy, closure, histories, interfaces, boundary_force,
-         energy, heat, fatigue] = state;
+         energy, heat, fatigue, balance] = state;
   const auto each = [&](auto&... members) { (archive(members), ...); };
   each(step, load, increment, displacement, damage, driving_energy, closure, histories.first, histories.values,
        interfaces, boundary_force);
@@ -145,6 +145,7 @@ void archive_state(Archive& archive, State& state) {
        duration, elapsed, stood_for, stretch, felt);
   auto& [accumulated, active, spent, cycle_start, cycle_growth, computed_cycles, whole_cycles, jumped_cycles] = fatigue;
   each(accumulated, active, spent, cycle_start, cycle_growth, computed_cycles, whole_cycles, jumped_cycles);
+  each(balance.greatest_force, balance.tightening, balance.is_tightest);
 }
 
 template <class T>

@@ -43,7 +43,6 @@ struct FractureRun::Parts {
   Unknowns unknowns;
   std::vector<Index> sides;  // of a box that moves by its mean strain
   Staggered staggered;
-  StaggeredSettings settings;
   ResidualStiffness residual_stiffness;
   SpreadDamage spread_damage;
   RateResolution rate_resolution;
@@ -63,7 +62,6 @@ struct FractureRun::Parts {
         unknowns((require_complete(m, model), place_unknowns(m, elastic_body(model)))),
         sides(faces_of_sides(model.motion)),
         staggered(m, model, unknowns, given),
-        settings(given),
         residual_stiffness(model.residual_stiffness, loading.is_proportional && !model.has_cycles()),
         heat((require_combination(mesh, model, unknowns, loading), make_body_heat(m, model, unknowns.plane_normal))) {
     relax_initial_damage();
@@ -99,17 +97,19 @@ struct FractureRun::Parts {
   [[noreturn]] void fail_unconverged(const FractureState& trial, const StepOutcome& outcome) {
     const std::string words =
         model.is_finite_strain()
-            ? finite_stop(mesh, model, settings, staggered.momentum().balance(), trial.damage, outcome)
-            : first_change(mesh, settings, outcome) + "; " + what_to_try(settings, outcome, remedies(trial.load));
+            ? finite_stop(mesh, model, staggered.settings(), staggered.momentum().balance(), trial.damage, outcome)
+            : first_change(mesh, staggered.settings(), outcome) + "; " +
+                  what_to_try(staggered.settings(), outcome, remedies(trial.load));
     throw NoConvergence(
         fmt::format("step {} at load {:.6g} did not converge with loading.minimum_increment = {:.3g}: {}", trial.step,
                     trial.load, loading.minimum_increment, words));
   }
 
-  Trial attempt(const FractureState& state, double planned, const IterationWatch& watch) {
+  Trial attempt(const FractureState& state, double planned, const ForceBalance& balance, const IterationWatch& watch) {
     const double stop = next_stop(state.load);
     Trial trial{.state = state, .outcome = {}};
     trial.state.step = state.step + 1;
+    trial.state.balance = balance;
     trial.state.load = state.load + planned > stop - load_rounding ? stop : state.load + planned;
     trial.increment = trial.state.load - state.load;
     heat->begin(trial.state.heat);
@@ -126,6 +126,7 @@ struct FractureRun::Parts {
     const StepOutcome& outcome = trial.outcome;
     const double increment = next.load - state.load;
     next.boundary_force = staggered.momentum().balance().boundary_forces(next.displacement);
+    next.balance = outcome.balance;
     next.energy = outcome.energy;
     next.energy.fracture = staggered.surface_energy(next);
     next.energy.external_work =
@@ -135,7 +136,7 @@ struct FractureRun::Parts {
       if (entry.role == EnergyEntry::Role::dissipated) next.energy.*entry.value += state.energy.*entry.value;
     heat->advance(staggered, state, increment * loading.duration, next);
     staggered.fatigue().end_cycle(next.load, next.fatigue);
-    next.increment = next_increment(loading, settings, planned, outcome);
+    next.increment = next_increment(loading, staggered.settings(), planned, outcome);
     const bool follows_path = loading.controls_dissipation();
     const std::string unstable = follows_path ? "" : spread_damage.remark(state, next, staggered);
     const std::string unresolved = rate_resolution.remark(model, state.interfaces, next.interfaces, next.load);
@@ -148,7 +149,8 @@ struct FractureRun::Parts {
     StepReport result = report(state, outcome, increment);
     if (!model.motion.any() && !model.has_body_force())
       if (const std::string remark =
-              unbalanced_force.remark(unknowns, state.boundary_force, state.load, settings.equilibrium_tolerance);
+              unbalanced_force.remark(unknowns, state.boundary_force, state.load, state.balance.greatest_force,
+                                      staggered.settings().equilibrium_tolerance);
           !remark.empty())
         remarks.push_back(remark);
     result.remarks = std::move(remarks);
@@ -224,9 +226,21 @@ StepReport FractureRun::step(FractureState& state, const IterationWatch& watch) 
   }
   std::vector<std::string> remarks;
   double planned = state.increment;
+  ForceBalance balance = state.balance;
   for (;;) {
-    Trial trial = parts_->attempt(state, planned, watch);
+    Trial trial = parts_->attempt(state, planned, balance, watch);
     const StepOutcome& outcome = trial.outcome;
+    if (outcome.balance.tightening < balance.tightening) {
+      balance.tightening = outcome.balance.tightening;
+      balance.is_tightest = outcome.balance.is_tightest;
+      continue;
+    }
+    const bool is_in_vain = !outcome.converged && !outcome.broke_too_much && !outcome.collapsed;
+    if (is_in_vain && balance.tightening < state.balance.tightening) {  // as the same step converged before
+      balance = state.balance;
+      balance.is_tightest = true;
+      continue;
+    }
     if (outcome.collapsed) parts_->fail_torn(state.load, trial.state.load);
     if (outcome.converged) return parts_->accept(std::move(trial), planned, std::move(remarks), state);
     if (outcome.broke_too_much) {
@@ -237,7 +251,7 @@ StepReport FractureRun::step(FractureState& state, const IterationWatch& watch) 
     if (planned < parts_->loading.minimum_increment) parts_->fail_unconverged(trial.state, outcome);
     remarks.push_back(fmt::format("step {} at load {:.6g} did not converge: {}; the increment is cut to {:.3g}",
                                   trial.state.step, trial.state.load,
-                                  what_changes(parts_->mesh, parts_->settings, outcome), planned));
+                                  what_changes(parts_->mesh, parts_->staggered.settings(), outcome), planned));
   }
 }
 

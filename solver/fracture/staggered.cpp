@@ -2,6 +2,7 @@
 
 #include "solver/fracture/equilibrium/finite_newton.h"
 #include "solver/fracture/equilibrium/law_newton.h"
+#include "solver/momentum/solution/force_balance.h"
 #include "solver/parallel.h"
 
 #include <algorithm>
@@ -23,6 +24,7 @@ Staggered::Staggered(const Mesh& mesh, const FractureModel& model, const Unknown
     : mesh_(mesh),
       model_(model),
       unknowns_(unknowns),
+      given_tolerance_(settings.equilibrium_tolerance),
       settings_(settings),
       momentum_(mesh, unknowns, settings.linear),
       stiffness_(make_cell_stiffness(mesh, model)),
@@ -39,6 +41,8 @@ Staggered::Staggered(const Mesh& mesh, const FractureModel& model, const Unknown
 
 StepOutcome Staggered::solve_step(const FractureState& start, FractureState& state, const StepLimits& limits,
                                   const IterationWatch& watch) {
+  tightening_ = state.balance.tightening;
+  settings_.equilibrium_tolerance = tightening_ * given_tolerance_;
   stiffness_->start_step(limits.duration, temperature_.factors(start, state.load));
   faces_.start_step(limits.duration);
   telling_ = {.watch = watch, .last = {.step = state.step, .load = state.load}, .after = telling_.after};
@@ -53,14 +57,7 @@ StepOutcome Staggered::solve_step(const FractureState& start, FractureState& sta
   if (outcome.failed || outcome.broke_too_much || outcome.collapsed) return outcome;
   // Reactions balance, and energies belong to the damage of the step.
   degrade(state);
-  const double tolerance = std::min(last_tolerance, settings_.equilibrium_tolerance);
-  const Equilibrium equilibrium = solve_momentum(start, state,
-                                                 {.reduction = 0.0,
-                                                  .ceiling = tolerance,
-                                                  .floor = tolerance,
-                                                  .most_iterations = last_iterations,
-                                                  .good_enough = settings_.equilibrium_tolerance},
-                                                 last_steps);
+  const Equilibrium equilibrium = balance_exactly(start, tightening_, state);
   outcome.krylov_iterations += equilibrium.iterations;
   outcome.residual = equilibrium.residual;
   outcome.converged = outcome.converged && equilibrium.residual <= settings_.equilibrium_tolerance;
@@ -76,7 +73,47 @@ StepOutcome Staggered::solve_step(const FractureState& start, FractureState& sta
   outcome.energy.plastic_dissipation = stiffness_->plastic_dissipation(start, state);
   outcome.energy.eigenstrain_work = eigenstrain_work(strained_before, free_strained(state));
   fatigue_->end_step(of_cells_.driving, damage_, state);
+  outcome.balance = outcome.converged ? tightened(start, state, energies.force) : state.balance;
   return outcome;
+}
+
+Equilibrium Staggered::balance_exactly(const FractureState& start, double tightening, FractureState& state) {
+  const double tolerance = tightening * std::min(last_tolerance, given_tolerance_);
+  return solve_momentum(start, state,
+                        {.reduction = 0.0,
+                         .ceiling = tolerance,
+                         .floor = tolerance,
+                         .most_iterations = last_iterations,
+                         .good_enough = tightening * given_tolerance_},
+                        last_steps);
+}
+
+ForceBalance Staggered::tightened(const FractureState& start, const FractureState& state, double force) {
+  constexpr double is_less = 0.5;
+  ForceBalance balance = state.balance;
+  const double before = balance.greatest_force;
+  balance.greatest_force = std::max(before, force);
+  if (balance.is_tightest) return balance;
+  // Where no force acts but what is left is one, it falls with the rest.
+  const auto imbalance = [&](const FractureState& at, double through) {
+    return unbalanced_force(momentum_, at.load, at.displacement) / std::max({before, through, 1e-300});
+  };
+  const double least = least_tolerance / std::min(last_tolerance, given_tolerance_);
+  FractureState tried{};
+  for (double share = imbalance(state, force); share > bearable_imbalance;) {
+    if (tried.displacement.empty()) tried = state;
+    const double tightening = std::max(least, needed_tightening(share) * balance.tightening);
+    balance_exactly(start, tightening, tried);
+    const CellMechanics cells =
+        momentum_.balance().mechanics(tried.displacement, MomentumOperator::Wanted::without_gradient);
+    const double left = imbalance(
+        tried, force_through(mesh_, momentum_.balance().boundary_forces(tried.displacement), cells.stress));
+    balance.is_tightest = !(left < is_less * share) || tightening == least;
+    if (left < is_less * share) balance.tightening = tightening;
+    if (balance.is_tightest) break;
+    share = left;
+  }
+  return balance;
 }
 
 void Staggered::jump(double cycles, FractureState& state) { fatigue_->jump(cycles, damage_, state); }
@@ -105,8 +142,8 @@ bool Staggered::has_reduced_energy() const {
 
 double Staggered::reduced_energy(FractureState state) {
   degrade(state);
-  momentum_.solve(state.load, {.reduction = 0.0, .ceiling = last_tolerance, .floor = last_tolerance},
-                  state.displacement);
+  const double tolerance = tightening_ * last_tolerance;
+  momentum_.solve(state.load, {.reduction = 0.0, .ceiling = tolerance, .floor = tolerance}, state.displacement);
   const CellMechanics mechanics = momentum_.balance().mechanics(
       state.displacement, MomentumOperator::Wanted::without_gradient, stiffness_->degradable_part(state));
   double energy = damage_.renewed_fracture_energy(state.damage);
@@ -161,6 +198,7 @@ Staggered::Energies Staggered::update_driving_energy(const FractureState& start,
       state.displacement, MomentumOperator::Wanted::without_gradient, stiffness_->degradable_part(state));
   Energies energies{.unsettled = stiffness_->integrate(mechanics, start, state)};
   of_cells_ = stiffness_->energies(mechanics, state);
+  if (!settles) energies.force = force_through(mesh_, balance().boundary_forces(state.displacement), mechanics.stress);
   energies.stored = parallel_sum(mesh_.n_cells(), [&](Index c) { return of_cells_.stored[c]; });
   energies.interfaces = faces_.advance(momentum_.balance(), state.displacement, start.interfaces, state.interfaces);
   energies.stored += energies.interfaces;

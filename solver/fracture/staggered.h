@@ -44,6 +44,8 @@ class Staggered {
   bool has_reduced_energy() const;
 
   const Mesh& mesh() const { return mesh_; }
+  /// With the tolerance of the last step.
+  const StaggeredSettings& settings() const { return settings_; }
   const FractureModel& model() const { return model_; }
   MomentumSolver& momentum() { return momentum_; }
   const MomentumOperator& balance() const { return momentum_.balance(); }
@@ -84,6 +86,11 @@ class Staggered {
   /// Tells of an iteration; `words` on what holds it up are asked for where the step takes long.
   void tell(IterationReport report, const std::function<std::string()>& words);
   BalanceWatch watch_of_balance(const FractureState& state);
+  /// The equilibrium of an accepted state.
+  Equilibrium balance_exactly(const FractureState& start, double tightening, FractureState& state);
+  /// The tolerances with which the forces on the parts of the body of a converged state balance, by trial; `force`:
+  /// through it [N].
+  ForceBalance tightened(const FractureState& start, const FractureState& state, double force);
   Equilibrium solve_momentum(const FractureState& start, FractureState& state,
                              const MomentumSolver::Tolerance& tolerance, Index most_newton_steps);
   /// Finds the equilibrium at a load that is no more than that of the path, and lower where the cohesive faces would
@@ -96,6 +103,7 @@ class Staggered {
     double torn = 0.0;        // dissipated by these since the start [J]
     double residual = 0.0;    // the part of it that the residual stiffness has [J]
     double unsettled = 0.0;   // error of it by stiffnesses that have not settled [J]
+    double force = 0.0;       // through the body, of an accepted state [N]
   };
   /// Updates the driving energy from the equilibrium. With `settles` the stiffness may follow the strain.
   Energies update_driving_energy(const FractureState& start, FractureState& state, bool settles);
@@ -115,7 +123,9 @@ class Staggered {
   const Mesh& mesh_;
   const FractureModel& model_;
   const Unknowns& unknowns_;
-  StaggeredSettings settings_;
+  const double given_tolerance_;  // of the momentum balance
+  StaggeredSettings settings_;    // with the tolerance of this step
+  double tightening_ = 1.0;       // of the given one
   MomentumSolver momentum_;
   std::unique_ptr<CellStiffness> stiffness_;
   std::unique_ptr<BodyStrength> strength_;

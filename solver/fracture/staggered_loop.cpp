@@ -82,7 +82,7 @@ struct Staggered::Loop {
     // A crack that is closed and sheared is nearly incompressible and takes many Krylov iterations: the remaining
     // residual is left to the next iteration of the loop.
     const MomentumSolver::Tolerance tolerance{.reduction = 0.1,
-                                              .ceiling = outcome.settled ? required : 1e-4,
+                                              .ceiling = outcome.settled ? required : 1e-4 * s.tightening_,
                                               .floor = 0.1 * required,
                                               .most_iterations = inner_iterations()};
     Equilibrium equilibrium = follows_faces() ? s.follow_faces(start, faces_path, tolerance, state)

@@ -7,17 +7,12 @@
 namespace pfdm {
 
 std::string UnbalancedForce::remark(const Unknowns& unknowns, std::span<const Vector> on_faces, double load,
-                                    double tolerance) {
+                                    double greatest, double tolerance) {
   constexpr double tolerable = 5e-3;
   Vector sum = Vector::Zero();
-  double all = 0.0;
-  for (const Vector& on_face : on_faces) {
-    const Vector force = unknowns.is_axisymmetric() ? Vector(0.0, 0.0, on_face.z()) : on_face;
-    sum += force;
-    all += force.norm();
-  }
-  greatest_ = std::max(greatest_, 0.5 * all);
-  const double share = greatest_ > 0.0 ? sum.norm() / greatest_ : 0.0;
+  for (const Vector& on_face : on_faces)
+    sum += unknowns.is_axisymmetric() ? Vector(0.0, 0.0, on_face.z()) : on_face;
+  const double share = greatest > 0.0 ? sum.norm() / greatest : 0.0;
   if (!(share > std::max(tolerable, 2.0 * said_))) return "";
   said_ = share;
   return fmt::format(

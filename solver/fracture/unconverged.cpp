@@ -76,8 +76,7 @@ std::string first_change(const Mesh& mesh, const StaggeredSettings& settings, co
 std::string what_is_unbalanced(const Mesh& mesh, const Unknowns& unknowns, const StaggeredSettings& settings,
                                const MomentumSolver& momentum, const FractureState& state,
                                const BalanceSoFar& balance) {
-  std::vector<Vector> rest = momentum.unbalanced_forces(state.load, state.displacement);
-  momentum.balance().add_spring_offsets(rest);
+  const std::vector<Vector> rest = momentum.unbalanced_forces(state.load, state.displacement);
   const auto size = [&](Index i) { return rest[i].norm() * momentum.row_scale()[i]; };
   Index node = 0;
   for (Index i = 1; i < unknowns.n_nodes(); ++i)

@@ -5,6 +5,7 @@
 #include "physics/registry.h"
 #include "solver/homogenization/box_sides.h"
 #include "solver/momentum/body/box_means.h"
+#include "solver/momentum/solution/force_balance.h"
 #include "solver/momentum/solution/momentum_solver.h"
 
 #include <fmt/format.h>
@@ -83,6 +84,7 @@ class BoxInLoadCases {
   }
   std::vector<Vector> forces_on_sides(std::size_t k) const;
   std::vector<Vector> first_guess(std::size_t k) const;
+  double tolerance_to_balance(double load, double tolerance, const std::vector<Vector>& u) const;
   void average(const std::vector<Vector>& u, LoadCase& result) const;
   std::vector<double> energies(const std::vector<Vector>& u) const;
 
@@ -114,16 +116,35 @@ std::vector<Vector> BoxInLoadCases::first_guess(std::size_t k) const {
 LoadCase BoxInLoadCases::solve(std::size_t k) {
   if (loading_.by_traction) solver_.set_body_force(forces_on_sides(k));
   std::vector<Vector> u = first_guess(k);
-  const double tolerance = settings_.tolerance;
-  const Equilibrium found =
-      solver_.solve(static_cast<double>(k), {.ceiling = tolerance, .floor = tolerance, .most_iterations = 4000}, u);
-  LoadCase result{.iterations = found.iterations, .residual = found.residual};
-  if (!found.converged)
+  const double load = static_cast<double>(k);
+  LoadCase result{};
+  const auto converges = [&](double tolerance) {
+    const Equilibrium found =
+        solver_.solve(load, {.ceiling = tolerance, .floor = tolerance, .most_iterations = 4000}, u);
+    result.iterations += found.iterations;
+    result.residual = found.residual;
+    return found.converged;
+  };
+  double tolerance = settings_.tolerance;
+  if (!converges(tolerance))
     throw NoConvergence(fmt::format("load case {} did not converge: residual {:.2g} after {} iterations",
-                                    component_names[k], found.residual, found.iterations));
+                                    component_names[k], result.residual, result.iterations));
+  for (bool goes_on = true; goes_on;) {
+    const double before = std::exchange(tolerance, tolerance_to_balance(load, tolerance, u));
+    goes_on = tolerance < before && converges(tolerance);
+  }
   average(u, result);
   u_[k] = std::move(u);
   return result;
+}
+
+// The tolerance with which the forces on the parts of the box balance.
+double BoxInLoadCases::tolerance_to_balance(double load, double tolerance, const std::vector<Vector>& u) const {
+  const CellMechanics cells = solver_.balance().mechanics(u, MomentumOperator::Wanted::without_gradient);
+  const double force = force_through(mesh_, solver_.balance().boundary_forces(u), cells.stress);
+  const double imbalance = unbalanced_force(solver_, load, u) / std::max(force, 1e-300);
+  if (!(imbalance > bearable_imbalance)) return tolerance;
+  return std::max(least_tolerance, tolerance * needed_tightening(imbalance));
 }
 
 void BoxInLoadCases::average(const std::vector<Vector>& u, LoadCase& result) const {

@@ -13,6 +13,7 @@
 #include "postproc/files/text_file.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -228,6 +229,16 @@ Measured measured_or_none(const SpecimenFile& specimen, const SpecimenRequest& r
   return test;
 }
 
+/// Values that neither the user nor a record gave: those of the specimen that the file describes.
+std::string line_of_defaults(const SpecimenFile& specimen, const SpecimenWords& words) {
+  std::vector<std::string> taken;
+  for (const SpecimenValue& value : specimen.values)
+    if (!words.given.contains(value.name) && words.texts.at(value.name) == value.text)
+      taken.push_back(fmt::format("{} {}", value.name, value.text));
+  if (taken.empty()) return "";
+  return fmt::format("  not given, so taken as usual: {} (--set NAME=VALUE gives them)\n", fmt::join(taken, ", "));
+}
+
 }  // namespace
 
 void make_specimen(const SpecimenRequest& request, std::ostream& out) {
@@ -251,7 +262,7 @@ void make_specimen(const SpecimenRequest& request, std::ostream& out) {
   const std::string place = request.directory.string();
   out << fmt::format("made {} of {} ({}): case.toml, README.md", place, specimen.name, specimen.standard);
   for (const std::string& file : files) out << ", " << file;
-  out << '\n' << said.str();
+  out << '\n' << said.str() << line_of_defaults(specimen, words) << lines_of_doubts(specimen, words);
   if (files.empty())
     out << fmt::format("next: {0} run {1}\n", request.called_as, place);
   else

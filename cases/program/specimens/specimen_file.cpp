@@ -67,7 +67,7 @@ SpecimenFile read_specimen_file(const std::filesystem::path& cases_directory, co
   for (const ConfigTable& row : root.tables("derived"))
     specimen.derived.emplace_back(row.string("name"), row.string("formula"));
   for (const ConfigTable& rule : root.tables("rules"))
-    specimen.rules.push_back({rule.string("that"), rule.string("message")});
+    specimen.rules.push_back({rule.string("that"), rule.string("message"), rule.boolean("is_doubt", false)});
   specimen.takes_toe = root.boolean("toe", true);
   specimen.share = root.string("share", "");
   specimen.case_text = root.string("case");

@@ -23,6 +23,7 @@ struct SpecimenValue {
 struct SpecimenRule {
   std::string that;     ///< formula that is not zero where all is well
   std::string message;  ///< what is wrong otherwise
+  bool is_doubt = false;  ///< told, and not refused
 };
 
 struct SpecimenFile {

@@ -119,8 +119,16 @@ void derive(const SpecimenFile& specimen, SpecimenWords& words) {
     }
   }
   for (const SpecimenRule& rule : specimen.rules)
-    if (evaluated(rule.that, words.numbers) == 0.0)
+    if (!rule.is_doubt && evaluated(rule.that, words.numbers) == 0.0)
       throw InputError(fmt::format("{}: {}", specimen.name, filled(rule.message, words)));
+}
+
+std::string lines_of_doubts(const SpecimenFile& specimen, const SpecimenWords& words) {
+  std::string lines;
+  for (const SpecimenRule& rule : specimen.rules)
+    if (rule.is_doubt && evaluated(rule.that, words.numbers) == 0.0)
+      lines += fmt::format("  warning: {}\n", filled(rule.message, words));
+  return lines;
 }
 
 std::string filled(const std::string& text, const SpecimenWords& words) {

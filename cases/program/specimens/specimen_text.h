@@ -28,6 +28,9 @@ void guess(SpecimenWords& words, const SpecimenValue& value, double si);
 /// Adds what follows, and checks the rules. Throws InputError with the message of one that does not hold.
 void derive(const SpecimenFile& specimen, SpecimenWords& words);
 
+/// The rules that are told where they do not hold, a line each, after derive().
+std::string lines_of_doubts(const SpecimenFile& specimen, const SpecimenWords& words);
+
 /// `text` with {{ ... }} replaced: {{ name }} as it was written, quoted if it has a unit; {{ formula : mm }} a quoted
 /// quantity; {{ formula : count }} a whole number; {{ formula : 1 }} a number; {{ formula : in mm }} without quotes,
 /// with 4 digits; {{ formula : about mm }} with 3.

@@ -15,7 +15,6 @@ Unbalanced unbalanced_of(Staggered& staggered, const FractureState& state,
                   .damage = CellField<double>(state.damage.size()),
                   .boundary_force = momentum.balance().boundary_forces(u),
                   .interfaces = before};
-  momentum.balance().add_spring_offsets(rest.forces);
   staggered.faces().advance(momentum.balance(), u, before, rest.interfaces);
   const CellStiffness& stiffness = staggered.stiffness();
   const CellMechanics mechanics =

@@ -3,7 +3,7 @@
 
 #include "physics/tensor.h"
 #include "solver/fracture/damage/residual_stiffness.h"
-#include "solver/fracture/model/energy_account.h"
+#include "solver/fracture/model/state.h"
 
 #include <limits>
 #include <vector>
@@ -36,6 +36,7 @@ struct StepOutcome {
   EnergyAccount energy{};        ///< elastic at the end, dissipated within the step
   double starting_energy = 0.0;  ///< elastic, at the load of the step with the damage that it began with [J]
   ResidualShare share{};         ///< of the residual stiffness
+  ForceBalance balance{};        ///< with tolerances that the step should have had
 };
 
 /// Limits of a step, and its duration.

@@ -16,6 +16,13 @@
 
 namespace pfdm {
 
+/// How tightly the forces on the parts of a body have to balance.
+struct ForceBalance {
+  double greatest_force = 0.0;  ///< through a section of the body, so far [N]
+  double tightening = 1.0;      ///< factor on the tolerances of the momentum balance
+  bool is_tightest = false;     ///< smaller tolerances have not brought the forces closer to balance
+};
+
 struct FractureState {
   Index step = 0;          ///< accepted load steps so far
   double load = 0.0;       ///< load parameter t
@@ -31,6 +38,7 @@ struct FractureState {
   EnergyAccount energy;
   HeatState heat{};        ///< without heat empty
   FatigueState fatigue{};  ///< without fatigue empty
+  ForceBalance balance{};
 };
 
 /// Report on a body that heat warms.

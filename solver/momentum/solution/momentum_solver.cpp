@@ -177,6 +177,7 @@ void MomentumSolver::add_body_force(std::vector<Vector>& load) const {
 
 std::vector<Vector> MomentumSolver::unbalanced_forces(double t, const std::vector<Vector>& u) const {
   std::vector<Vector> rest = load_vector(t), image(u.size());
+  operator_.add_spring_offsets(rest);
   operator_.apply(u, image);
   for (std::size_t i = 0; i < rest.size(); ++i) rest[i] -= image[i];
   return rest;

@@ -73,6 +73,21 @@ void expect_columns(const std::string& head, int n, const std::string& displacem
     EXPECT_THAT(result.text, HasSubstr(fmt::format("\ncrack_length = {{ column = \"{}\"", crack_length))) << head;
 }
 
+// A laminate's moduli and the dimensions of the standard are said where a record of something else would take them.
+TEST(MachineRecords, TellWhatIsTakenOfTheSpecimen) {
+  const std::string record = straight_rows("Opening [mm];Load [N]", 2);
+  const Made result = made({record}, dcb, {"width=20 mm"});
+  ASSERT_EQ(result.outcome.status, 0) << result.outcome.err;
+  EXPECT_THAT(result.outcome.out, HasSubstr("not given, so taken as usual: thickness 3 mm, crack_length 50 mm, length "
+                                            "125 mm, transverse_modulus 9 GPa, shear_modulus 5 GPa"));
+  EXPECT_THAT(result.outcome.out, Not(HasSubstr("usual: width")));
+  const Made one_arm = made({record}, dcb, {"thickness=1.5 mm"});
+  ASSERT_EQ(one_arm.outcome.status, 0) << one_arm.outcome.err;
+  EXPECT_THAT(one_arm.outcome.out, HasSubstr("warning: young_modulus"));
+  EXPECT_THAT(one_arm.outcome.out, HasSubstr("thickness is that of both arms together, \"1.5 mm\""));
+  EXPECT_THAT(result.outcome.out, Not(HasSubstr("warning")));
+}
+
 TEST(MachineRecords, AreReadByWholeWordsAndUnits) {
   expect_columns("Crack opening displacement [mm];Load [N]", 2, "Crack opening displacement", "Load", "");
   expect_columns("COD [mm];Load [N];Crack extension [mm]", 3, "COD", "Load", "");

@@ -50,6 +50,7 @@ TEST(SweepChanges, RunTheCaseAndEachChangeAlone) {
   EXPECT_THAT(page, HasSubstr(line));
   EXPECT_EQ(page.find(line), page.rfind(line)) << "told twice";
   EXPECT_THAT(page, HasSubstr("The sweep has 3 runs, 3 of them converged."));
+  EXPECT_THAT(page, HasSubstr("What one of its changes does at most: peak force +38 % (twice as stiff)"));
   EXPECT_THAT(page, testing::Not(HasSubstr("change=")));
   EXPECT_THAT(outcome.out, HasSubstr("run 3: twice as stiff (materials.concrete.young_modulus = 60 GPa)"));
 }

@@ -155,8 +155,8 @@ TEST(Checkpoint, says_what_is_wrong) {
   EXPECT_THAT(complaint(whole, "another"), HasSubstr("another case"));
   EXPECT_THAT(complaint(whole, "another"), HasSubstr(hash));
   std::string other = whole;
-  other[8] = 18;
-  EXPECT_THAT(complaint(other, hash), HasSubstr("has format 18; this program reads format 17"));
+  other[8] = 19;
+  EXPECT_THAT(complaint(other, hash), HasSubstr("has format 19; this program reads format 18"));
   other = whole;
   other[other.size() / 2] = static_cast<char>(other[other.size() / 2] ^ 4);
   EXPECT_THAT(complaint(other, hash), HasSubstr("checksum"));

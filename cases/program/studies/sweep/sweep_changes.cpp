@@ -77,6 +77,23 @@ std::vector<std::string> told_changes(const CsvTable& table) {
   return lines;
 }
 
+std::string most_of_changes(const CsvTable& table) {
+  if (told_changes(table).empty()) return "";
+  const ShownColumn changes = shown_column(table, table.find(change_column));
+  std::vector<std::string> told;
+  for (const std::size_t j : told_columns(table)) {
+    const std::vector<double>& values = table.columns[j];
+    const auto change = [&](std::size_t k) { return std::abs(values[k] / values.front() - 1.0); };
+    std::size_t most = 0;
+    for (std::size_t k = 1; k < values.size(); ++k)
+      if (std::isfinite(change(k)) && (most == 0 || change(k) > change(most))) most = k;
+    if (most > 0)
+      told.push_back(fmt::format("{} {} ({})", shown_column(table, j).words, change_text(values.front(), values[most]),
+                                 changes.cell(most)));
+  }
+  return fmt::format("What one of its changes does at most: {}.", fmt::join(told, ", "));
+}
+
 std::string words_of_error(const std::filesystem::path& results, double peak_force) {
   constexpr double rounding = 1e-9;
   if (std::filesystem::exists(results / sweep_file)) {

@@ -28,6 +28,9 @@ std::optional<std::string> told_change(std::string_view comment);
 /// The lines among the comments of a sweep's table.
 std::vector<std::string> told_changes(const CsvTable& table);
 
+/// A sentence on the change that does most to each of the figures that one asks for first; empty of other sweeps.
+std::string most_of_changes(const CsvTable& table);
+
 /// A sentence on the error of mesh and steps of a run with this greatest force [N]: what the sweep in its results says,
 /// if there is one of the same case, or how to know it.
 std::string words_of_error(const std::filesystem::path& results, double peak_force);

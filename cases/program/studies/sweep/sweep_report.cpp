@@ -146,9 +146,10 @@ bool has_own_run(const fs::path& results) {
 void report_sweep(const std::string& title, Session& session) {
   const fs::path folder = session.results / "report" / (has_own_run(session.results) ? "sweep" : "");
   const CsvTable table = read_csv(session.results / sweep_file, {.has_gaps = true});
-  write_pages(
-      folder, page_of(table, title, session.version), session,
-      {.headline = {fmt::format("The sweep has {}.", words_of_runs(table))}, .runs = sweep_runs(table, session)});
+  std::vector<std::string> headline{fmt::format("The sweep has {}.", words_of_runs(table))};
+  if (std::string most = most_of_changes(table); !most.empty()) headline.push_back(std::move(most));
+  write_pages(folder, page_of(table, title, session.version), session,
+              {.headline = std::move(headline), .runs = sweep_runs(table, session)});
 }
 
 }  // namespace pfdm
