@@ -106,8 +106,8 @@ ForceBalance Staggered::tightened(const FractureState& start, const FractureStat
     balance_exactly(start, tightening, tried);
     const CellMechanics cells =
         momentum_.balance().mechanics(tried.displacement, MomentumOperator::Wanted::without_gradient);
-    const double left = imbalance(
-        tried, force_through(mesh_, momentum_.balance().boundary_forces(tried.displacement), cells.stress));
+    const double left =
+        imbalance(tried, force_through(mesh_, momentum_.balance().boundary_forces(tried.displacement), cells.stress));
     balance.is_tightest = !(left < is_less * share) || tightening == least;
     if (left < is_less * share) balance.tightening = tightening;
     if (balance.is_tightest) break;

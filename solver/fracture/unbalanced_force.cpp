@@ -10,8 +10,7 @@ std::string UnbalancedForce::remark(const Unknowns& unknowns, std::span<const Ve
                                     double greatest, double tolerance) {
   constexpr double tolerable = 5e-3;
   Vector sum = Vector::Zero();
-  for (const Vector& on_face : on_faces)
-    sum += unknowns.is_axisymmetric() ? Vector(0.0, 0.0, on_face.z()) : on_face;
+  for (const Vector& on_face : on_faces) sum += unknowns.is_axisymmetric() ? Vector(0.0, 0.0, on_face.z()) : on_face;
   const double share = greatest > 0.0 ? sum.norm() / greatest : 0.0;
   if (!(share > std::max(tolerable, 2.0 * said_))) return "";
   said_ = share;

@@ -12,14 +12,27 @@ constexpr double unknown_part = 0.01;   // deviation of noise that is not known,
 constexpr double least_scatter = 1e-6;  // of values that the law meets but for rounding
 constexpr double reach_of_modulus = 1e7, reach_of_time = 1e3;
 constexpr double least_modulus = 1e-3, largest_modulus = 1e15;  // [Pa], as cases take them
+constexpr double reach_of_shift = 100.0;
 constexpr double least_nu = -0.99, largest_nu = 0.4999;
 
-/// Calls visit(name, unit, value) for every chosen value but Poisson's ratio.
+/// Calls visit(name, unit, value) for every chosen value of the branches.
 template <class Branches, class Visit>
 void visit_branches(Branches& branches, const ViscoelasticChoice& choice, const Visit& visit) {
   for (std::size_t i = 0; i < branches.size(); ++i) {
     if (choice.moduli) visit(fmt::format("modulus_{}", i + 1), "Pa", branches[i].modulus);
     if (choice.times) visit(fmt::format("time_{}", i + 1), "s", branches[i].time);
+  }
+}
+
+/// The same for the constants of the temperature shift.
+template <class Shift, class Visit>
+void visit_shift(Shift& shift, const ViscoelasticChoice& choice, const Visit& visit) {
+  if (!choice.shift || !shift) return;
+  if (shift->law == TemperatureShift::Law::arrhenius) {
+    visit("activation_energy", "J/mol", shift->activation_energy);
+  } else {
+    visit("C1", "1", shift->c1);
+    visit("C2", "K", shift->c2);
   }
 }
 
@@ -107,6 +120,9 @@ std::vector<FitParameter> fit_parameters(const PronyLaw& law, const Viscoelastic
     parameters.push_back(on_log_scale(std::move(name), unit, value, std::max(lower, is_time ? 1e-15 : least_modulus),
                                       is_time ? upper : std::min(upper, largest_modulus)));
   });
+  visit_shift(law.shift, choice, [&](std::string name, std::string_view unit, double value) {
+    parameters.push_back(on_log_scale(std::move(name), unit, value, value / reach_of_shift, value * reach_of_shift));
+  });
   if (choice.poisson_ratio)
     parameters.push_back({.name = "poisson_ratio",
                           .unit = "1",
@@ -124,6 +140,7 @@ std::optional<PronyLaw> with_values(const PronyLaw& law, const ViscoelasticChoic
   if (choice.young_modulus) E = values[i++];
   visit_branches(result.shear, choice,
                  [&](const std::string&, std::string_view, double& value) { value = values[i++]; });
+  visit_shift(result.shift, choice, [&](const std::string&, std::string_view, double& value) { value = values[i++]; });
   const double nu = choice.poisson_ratio ? values[i++] : law.relaxed.poisson_ratio();
   result.relaxed = from_young_poisson(E, nu);
   bool is_law = E > 0.0 && std::isfinite(E) && nu > -1.0 && nu < 0.5;
@@ -133,6 +150,7 @@ std::optional<PronyLaw> with_values(const PronyLaw& law, const ViscoelasticChoic
 }
 
 std::vector<std::vector<double>> respond(const PronyLaw& law, const ViscoelasticExperiment& experiment) {
+  if (law.shift && !experiment.temperatures.empty()) return respond(law, at_reference(experiment, law.shift));
   const RelaxationModulus modulus = modulus_in(law, experiment.deformation);
   std::vector<std::vector<double>> answers;
   for (const ViscoelasticExperiment::Channel& channel : experiment.channels) {
@@ -211,7 +229,7 @@ ViscoelasticFit fit_law(const PronyLaw& law, const ViscoelasticChoice& choice,
                         const ViscoelasticExperiments& experiments, std::span<const double> deviations,
                         const std::vector<FitParameter>& limits, const FitSettings& settings) {
   ViscoelasticFit fitted{.law = law, .choice = choice, .parameters = {}, .result = {}};
-  const TimeWindow window = time_window(experiments);
+  const TimeWindow window = time_window(at_reference(experiments, law.shift));
   std::ranges::sort(fitted.law.shear, {}, &PronyBranch::time);
   // A second, short fit gives the statistics in the order of the sorted branches.
   for (int turn = 0; turn < 2; ++turn) {

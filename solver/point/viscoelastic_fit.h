@@ -34,6 +34,8 @@ struct ViscoelasticExperiment {
   std::vector<double> angular_frequencies{};  ///< of DMA [rad/s]
   std::vector<double> followed{};             ///< strains, or stresses [Pa], at the times, linear in between
   bool follows_stress = false;
+  /// Of the test [K], or of each frequency; empty: the reference of the law's temperature shift, if it has one.
+  std::vector<double> temperatures{};
   double ramp = 0.0;  ///< time before the first row, within which the first value was reached linearly [s]; 0: at once
   std::vector<Channel> channels{};
 
@@ -47,6 +49,13 @@ struct TimeWindow {
   double shortest = 0.0, longest = 0.0;
 };
 TimeWindow time_window(const ViscoelasticExperiments& experiments);
+/// The experiments as they would be at the reference of the shift (time-temperature superposition): times over a_T,
+/// frequencies times a_T.
+ViscoelasticExperiment at_reference(ViscoelasticExperiment experiment, const std::optional<TemperatureShift>& shift);
+ViscoelasticExperiments at_reference(const ViscoelasticExperiments& experiments,
+                                     const std::optional<TemperatureShift>& shift);
+/// How many temperatures there are.
+std::size_t n_temperatures(const ViscoelasticExperiments& experiments);
 /// "1.6 us to 10 ks"
 std::string text_of(const TimeWindow& window);
 
@@ -65,10 +74,11 @@ struct ViscoelasticChoice {
   bool moduli = true;          ///< of the shear branches
   bool times = true;           ///< likewise
   bool poisson_ratio = false;  ///< the relaxed one
+  bool shift = false;          ///< of the times by the temperature: C1 and C2, or the activation energy
 };
 
-/// young_modulus [Pa], modulus_1 [Pa], time_1 [s] ..., poisson_ratio; all but the last on a logarithmic scale. Times
-/// stay within a factor of a thousand of the window.
+/// young_modulus [Pa], modulus_1 [Pa], time_1 [s] ..., C1, C2 [K] or activation_energy [J/mol], poisson_ratio; all but
+/// the last on a logarithmic scale. Times stay within a factor of a thousand of the window.
 std::vector<FitParameter> fit_parameters(const PronyLaw& law, const ViscoelasticChoice& choice,
                                          const TimeWindow& window);
 /// The law with these values; nothing if they make no law.

@@ -24,15 +24,17 @@ struct Problem {
   const PronyLaw& law;
   const ViscoelasticExperiments& experiments;
   const ViscoelasticSettings& settings;
-  TimeWindow window;
+  TimeWindow window;      ///< by the law's temperature shift
   int most_branches = 0;  ///< of the settings, or as many as there are values for
   bool holds_relaxed() const { return !settings.choice.young_modulus; }
 };
 
 /// Throws InputError if there are too few values for the least number of branches.
-int most_branches(const ViscoelasticExperiments& experiments, const ViscoelasticSettings& settings) {
+int most_branches(const PronyLaw& law, const ViscoelasticExperiments& experiments,
+                  const ViscoelasticSettings& settings) {
   const auto n = static_cast<int>(std::min<std::size_t>(n_measured(experiments), 1000));
-  const int others = (settings.choice.young_modulus ? 1 : 0) + (settings.choice.poisson_ratio ? 1 : 0);
+  const int of_shift = settings.choice.shift && law.shift ? (law.shift->law == TemperatureShift::Law::wlf ? 2 : 1) : 0;
+  const int others = (settings.choice.young_modulus ? 1 : 0) + (settings.choice.poisson_ratio ? 1 : 0) + of_shift;
   const auto with_values_for = [&](int parameters) { return (parameters - others) / (settings.choice.times ? 2 : 1); };
   int most = std::min(settings.most_branches, with_values_for(n));
   // The noise that is not known is that about the law with most branches, which must not follow it.
@@ -93,6 +95,11 @@ ViscoelasticFit without_zeros(const Problem& p, ViscoelasticFit found, std::span
   return found;
 }
 
+/// Of times at the reference of a law's temperature shift.
+TimeWindow window_by(const Problem& p, const PronyLaw& law) {
+  return time_window(at_reference(p.experiments, law.shift));
+}
+
 /// With n branches; `before`: the law with one less, if there is one.
 ViscoelasticFit fit_branches(const Problem& p, int n, const std::optional<PronyLaw>& before,
                              std::span<const double> deviations) {
@@ -103,7 +110,7 @@ ViscoelasticFit fit_branches(const Problem& p, int n, const std::optional<PronyL
   std::vector<PronyLaw> starts{law_of_branches(p.law, p.holds_relaxed(), p.experiments, deviations, n)};
   PronyLaw even = law_of_times(p.law, p.holds_relaxed(), p.experiments, deviations, spread_times(p.window, n + 2));
   if (std::ssize(even.shear) == n) starts.push_back(even);
-  if (before) starts.push_back(with_one_more(*before, p.window));
+  if (before) starts.push_back(with_one_more(*before, window_by(p, *before)));
   return lowest_from(p, starts, deviations);
 }
 
@@ -128,6 +135,33 @@ struct Selection {
   std::vector<TriedBranches> tried{};
 };
 
+TriedBranches tried_of(const Problem& p, const ViscoelasticFit& fit) {
+  const FitResult& found = fit.result;
+  return {.n_branches = static_cast<int>(fit.law.shear.size()),
+          .rms = found.rms,
+          .information = bayesian_information(found.sum_of_squares, found.residuals.size(), fit.parameters.size(),
+                                              negligible_residual),
+          .objection = objection_to(fit, window_by(p, fit.law))};
+}
+
+/// Fits that miss the data by far more than the next one, of a branch more, begin again from that: over many decades
+/// they may have ended beside the least sum of squares.
+void improve_from_above(const Problem& p, std::span<const double> deviations, std::vector<ViscoelasticFit>& fits) {
+  constexpr double far = 1.05;
+  if (!p.settings.choice.times) return;
+  for (std::size_t i = fits.size(); i-- > 1;) {
+    const ViscoelasticFit& more = fits[i];
+    ViscoelasticFit& fewer = fits[i - 1];
+    if (more.law.shear.size() != fewer.law.shear.size() + 1 || fewer.result.rms < far * more.result.rms) continue;
+    try {
+      ViscoelasticFit found = lowest_from(p, with_one_less(more.law), deviations);
+      if (far * found.result.rms < fewer.result.rms) fewer = std::move(found);
+    } catch (const ComputationError&) {
+      continue;  // the first one stays
+    }
+  }
+}
+
 Selection select(const Problem& p, std::span<const double> deviations) {
   std::vector<ViscoelasticFit> fits;
   Selection result;
@@ -141,18 +175,15 @@ Selection select(const Problem& p, std::span<const double> deviations) {
       continue;
     }
     before = fits.back().law;
-    const FitResult& found = fits.back().result;
-    result.tried.push_back({.n_branches = n,
-                            .rms = found.rms,
-                            .information = bayesian_information(found.sum_of_squares, found.residuals.size(),
-                                                                fits.back().parameters.size(), negligible_residual),
-                            .objection = objection_to(fits.back(), p.window)});
-    const TriedBranches& now = result.tried.back();
-    p.settings.say(fmt::format("{} branch{}: residuals {:.4g} times the noise, Bayesian information {:.6g}{}", n,
-                               n == 1 ? "" : "es", now.rms, now.information,
-                               now.objection.empty() ? "" : "; " + now.objection));
   }
   if (fits.empty()) throw NoConvergence("no number of branches could be fitted");
+  improve_from_above(p, deviations, fits);
+  for (const ViscoelasticFit& fit : fits) {
+    const TriedBranches& now = result.tried.emplace_back(tried_of(p, fit));
+    p.settings.say(fmt::format("{} branch{}: residuals {:.4g} times the noise, Bayesian information {:.6g}{}",
+                               now.n_branches, now.n_branches == 1 ? "" : "es", now.rms, now.information,
+                               now.objection.empty() ? "" : "; " + now.objection));
+  }
   const std::size_t chosen = choice_of(result.tried);
   result.fit = std::move(fits[chosen]);
   return result;
@@ -211,9 +242,13 @@ std::string objection_to(const ViscoelasticFit& fit, const TimeWindow& window) {
 
 ViscoelasticIdentification identify(const PronyLaw& law, const ViscoelasticExperiments& experiments,
                                     const ViscoelasticSettings& settings) {
-  const Problem p{law, experiments, settings, time_window(experiments), most_branches(experiments, settings)};
   ViscoelasticIdentification result;
   result.deviations = first_deviations(experiments);
+  const PronyLaw first = settings.choice.shift && settings.choice.moduli
+                             ? law_of_shift(law, !settings.choice.young_modulus, experiments, result.deviations)
+                             : law;
+  const Problem p{first, experiments, settings, time_window(at_reference(experiments, first.shift)),
+                  most_branches(law, experiments, settings)};
   if (settings.least_branches > 0) {
     // Noise by the law with the most branches, the same for all numbers: their residuals can be compared.
     result.deviations = deviations(law_with_most(p, result.deviations), experiments);
@@ -223,15 +258,15 @@ ViscoelasticIdentification identify(const PronyLaw& law, const ViscoelasticExper
   } else {
     std::vector<PronyLaw> starts{law};
     if (settings.choice.times && settings.choice.moduli)
-      starts.push_back(
-          law_of_branches(law, p.holds_relaxed(), experiments, result.deviations, static_cast<int>(law.shear.size())));
+      starts.push_back(law_of_branches(first, p.holds_relaxed(), experiments, result.deviations,
+                                       static_cast<int>(law.shear.size())));
     result.fit = lowest_from(p, starts, result.deviations);
   }
   for (int turn = 0; turn < reweightings; ++turn) {
     result.deviations = deviations(result.fit.law, experiments);
     result.fit = fit_from_law(p, result.fit.law, result.deviations, p.settings.fit);
   }
-  if (const std::string objection = objection_to(result.fit, p.window); !objection.empty())
+  if (const std::string objection = objection_to(result.fit, window_by(p, result.fit.law)); !objection.empty())
     result.doubts.push_back(objection);
   if (const std::string doubt = doubt_of_bulk(result.fit.law, experiments); !doubt.empty())
     result.doubts.push_back(doubt);

@@ -3,7 +3,9 @@
 #include "solver/linear/dense_algebra.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 
 namespace pfdm {
 namespace {
@@ -142,7 +144,7 @@ std::vector<double> spread_times(const TimeWindow& window, int n) {
 PronyLaw law_of_times(const PronyLaw& law, bool holds_relaxed, const ViscoelasticExperiments& experiments,
                       std::span<const double> deviations, std::span<const double> times) {
   LinearProblem problem(law, holds_relaxed, deviations, times);
-  for (const ViscoelasticExperiment& experiment : experiments) problem.add(experiment);
+  for (const ViscoelasticExperiment& experiment : experiments) problem.add(at_reference(experiment, law.shift));
   const Eigen::VectorXd moduli = problem.solve();
   const double sum = moduli.sum();
   if (!(sum > 0.0)) {  // loss factors alone
@@ -160,15 +162,70 @@ PronyLaw law_of_times(const PronyLaw& law, bool holds_relaxed, const Viscoelasti
   return result;
 }
 
-PronyLaw law_of_branches(const PronyLaw& law, bool holds_relaxed, const ViscoelasticExperiments& experiments,
-                         std::span<const double> deviations, int n) {
-  const TimeWindow window = time_window(experiments);
+namespace {
+
+/// With the branches of a fine grid of times.
+PronyLaw law_of_fine_times(const PronyLaw& law, bool holds_relaxed, const ViscoelasticExperiments& experiments,
+                           std::span<const double> deviations) {
+  const TimeWindow window = time_window(at_reference(experiments, law.shift));
   const double decades = std::log10(window.longest / window.shortest);
   const int points = std::clamp(static_cast<int>(std::ceil(fine_per_decade * decades)) + 1, 2, 80);
-  PronyLaw result = law_of_times(law, holds_relaxed, experiments, deviations, spread_times(window, points));
+  return law_of_times(law, holds_relaxed, experiments, deviations, spread_times(window, points));
+}
+
+}  // namespace
+
+PronyLaw law_of_shift(const PronyLaw& law, bool holds_relaxed, const ViscoelasticExperiments& experiments,
+                      std::span<const double> deviations) {
+  using Factors = std::array<double, 2>;  // logarithms, of C1 or the activation energy, and of C2
+  constexpr double coarse = 0.5, fine = 0.01;
+  constexpr std::array steps{-1.0, 0.0, 1.0};
+  const auto with = [&](const Factors& factors) {
+    PronyLaw other = law;
+    other.shift->c1 *= std::exp(factors[0]);
+    other.shift->activation_energy *= std::exp(factors[0]);
+    other.shift->c2 *= std::exp(factors[1]);
+    return other;
+  };
+  Factors best{0.0, 0.0};
+  double least = std::numeric_limits<double>::infinity();
+  const auto improves = [&](const Factors& factors) {
+    const PronyLaw spectrum = law_of_fine_times(with(factors), holds_relaxed, experiments, deviations);
+    const double misfit = rms_of(fit_residuals(spectrum, experiments, deviations));
+    if (!(misfit < least)) return false;
+    best = factors;
+    least = misfit;
+    return true;
+  };
+  const bool has_second = law.shift->law == TemperatureShift::Law::wlf;
+  for (int i = -2; i <= 2; ++i)
+    for (int j = has_second ? -2 : 0; j <= (has_second ? 2 : 0); ++j) improves({coarse * i, coarse * j});
+  for (double step = 0.5 * coarse; step > fine;) {
+    const Factors centre = best;
+    bool is_better = false;
+    for (const double i : steps)
+      for (const double j : steps)
+        if ((i != 0.0 || j != 0.0) && (has_second || j == 0.0))
+          is_better |= improves({centre[0] + step * i, centre[1] + step * j});
+    if (!is_better) step *= 0.5;
+  }
+  return with(best);
+}
+
+PronyLaw law_of_branches(const PronyLaw& law, bool holds_relaxed, const ViscoelasticExperiments& experiments,
+                         std::span<const double> deviations, int n) {
+  const TimeWindow window = time_window(at_reference(experiments, law.shift));
+  PronyLaw result = law_of_fine_times(law, holds_relaxed, experiments, deviations);
   join_near(result.shear, std::pow(10.0, 1.5 / fine_per_decade), static_cast<std::size_t>(n));
   while (std::ssize(result.shear) < n) result = with_one_more(result, window);
   return result;
+}
+
+std::vector<PronyLaw> with_one_less(const PronyLaw& law) {
+  PronyLaw joined = law, left_out = law;
+  join_near(joined.shear, 1.0, law.shear.size() - 1);
+  left_out.shear.erase(std::ranges::min_element(left_out.shear, {}, &PronyBranch::modulus));
+  return {joined, left_out};
 }
 
 PronyLaw with_one_more(const PronyLaw& law, const TimeWindow& window) {

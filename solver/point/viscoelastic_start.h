@@ -23,6 +23,14 @@ PronyLaw law_of_times(const PronyLaw& law, bool holds_relaxed, const Viscoelasti
 PronyLaw law_of_branches(const PronyLaw& law, bool holds_relaxed, const ViscoelasticExperiments& experiments,
                          std::span<const double> deviations, int n);
 
+/// The law with constants of its temperature shift with which many branches meet the data best, looked for about a
+/// third to three times the given ones: fits of few branches do not find them from afar.
+PronyLaw law_of_shift(const PronyLaw& law, bool holds_relaxed, const ViscoelasticExperiments& experiments,
+                      std::span<const double> deviations);
+
+/// Laws with one branch less: the nearest two joined; the one with the smallest modulus left out.
+std::vector<PronyLaw> with_one_less(const PronyLaw& law);
+
 /// The law with one more branch, a small one in the widest gap of its times within the window.
 PronyLaw with_one_more(const PronyLaw& law, const TimeWindow& window);
 

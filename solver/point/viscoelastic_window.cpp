@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
+#include <utility>
 
 namespace pfdm {
 
@@ -42,6 +44,34 @@ LoadPath whole_path(const ViscoelasticExperiment& experiment, const std::vector<
     path.added = 1;
   }
   return path;
+}
+
+ViscoelasticExperiment at_reference(ViscoelasticExperiment experiment, const std::optional<TemperatureShift>& shift) {
+  if (!shift || experiment.temperatures.empty()) return experiment;
+  constexpr double longest = 1e30;  // the law of a trial may have no times at a test's temperature
+  const std::vector<double> temperatures = std::exchange(experiment.temperatures, {});
+  const auto factor = [&](std::size_t i) {
+    return std::clamp(shift->factor(temperatures[temperatures.size() > 1 ? i : 0]), 1.0 / longest, longest);
+  };
+  for (double& t : experiment.times) t /= factor(0);
+  experiment.ramp /= factor(0);
+  for (std::size_t i = 0; i < experiment.angular_frequencies.size(); ++i)
+    experiment.angular_frequencies[i] *= factor(i);
+  return experiment;
+}
+
+ViscoelasticExperiments at_reference(const ViscoelasticExperiments& experiments,
+                                     const std::optional<TemperatureShift>& shift) {
+  ViscoelasticExperiments there;
+  for (const ViscoelasticExperiment& experiment : experiments) there.push_back(at_reference(experiment, shift));
+  return there;
+}
+
+std::size_t n_temperatures(const ViscoelasticExperiments& experiments) {
+  std::set<double> all;
+  for (const ViscoelasticExperiment& experiment : experiments)
+    all.insert(experiment.temperatures.begin(), experiment.temperatures.end());
+  return all.size();
 }
 
 TimeWindow time_window(const ViscoelasticExperiments& experiments) {

@@ -21,8 +21,8 @@ struct SpecimenValue {
 };
 
 struct SpecimenRule {
-  std::string that;     ///< formula that is not zero where all is well
-  std::string message;  ///< what is wrong otherwise
+  std::string that;       ///< formula that is not zero where all is well
+  std::string message;    ///< what is wrong otherwise
   bool is_doubt = false;  ///< told, and not refused
 };
 

@@ -16,6 +16,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 namespace pfdm {
 namespace {
@@ -30,14 +31,40 @@ std::string column_of(MeasuredQuantity quantity) {
   return key_with_unit(name, std::string(unit_of(quantity)));
 }
 
-CsvTable fitted_curve(const ViscoelasticExperiment& test, const PronyLaw& law) {
+/// Of a test at several temperatures: these, and its frequencies at the reference, by which it is sorted.
+ViscoelasticExperiment in_order_at_reference(const ViscoelasticExperiment& test, const PronyLaw& law) {
+  const std::vector<double> there = at_reference(test, law.shift).angular_frequencies;
+  std::vector<std::size_t> order(there.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::stable_sort(order, {}, [&](std::size_t i) { return there[i]; });
+  const auto sorted = [&](std::vector<double>& values) {
+    const std::vector<double> all = values;
+    for (std::size_t i = 0; i < order.size(); ++i) values[i] = all[order[i]];
+  };
+  ViscoelasticExperiment result = test;
+  sorted(result.angular_frequencies);
+  sorted(result.temperatures);
+  for (ViscoelasticExperiment::Channel& channel : result.channels) sorted(channel.values);
+  return result;
+}
+
+std::vector<double> in_hertz(std::vector<double> angular_frequencies) {
+  for (double& f : angular_frequencies) f /= 2.0 * std::numbers::pi;
+  return angular_frequencies;
+}
+
+CsvTable fitted_curve(const ViscoelasticExperiment& measured, const PronyLaw& law) {
+  const bool is_master = measured.is_frequency_sweep() && measured.temperatures.size() > 1;
+  const ViscoelasticExperiment test = is_master ? in_order_at_reference(measured, law) : measured;
   CsvTable table;
   table.comments.push_back(
       fmt::format("test {}, {}: measured, and by the fitted law", test.name, name_of(test.deformation)));
   if (test.is_frequency_sweep()) {
-    std::vector<double> frequencies = test.angular_frequencies;
-    for (double& f : frequencies) f /= 2.0 * std::numbers::pi;
-    table.add("frequency_Hz", std::move(frequencies));
+    table.add("frequency_Hz", in_hertz(test.angular_frequencies));
+    if (is_master) {
+      table.add("temperature_K", test.temperatures);
+      table.add("reduced_frequency_Hz", in_hertz(at_reference(test, law.shift).angular_frequencies));
+    }
   } else {
     table.add("time_s", test.times);
     table.add(test.follows_stress ? "stress_Pa" : "strain", test.followed);
@@ -125,8 +152,9 @@ FitFindings judged_tests(const ViscoelasticFitCase& fit, const ViscoelasticIdent
   if (model_error && !is_sound(findings.verdict))
     findings.reasons.push_back(
         fmt::format("a Prony series of {} shear branch{}, the same in all tests, is the wrong model for these data, "
-                    "which it misses by up to {:.2g} %; tests at several temperatures are first shifted to one",
-                    found.fit.law.shear.size(), found.fit.law.shear.size() == 1 ? "" : "es", 100.0 * misfit));
+                    "which it misses by up to {:.2g} %{}",
+                    found.fit.law.shear.size(), found.fit.law.shear.size() == 1 ? "" : "es", 100.0 * misfit,
+                    found.fit.law.shift ? "" : "; tests at several temperatures need a temperature_shift"));
   if (const auto flow = doubt_of_flow(found.fit)) question(findings, *flow);
   const std::vector<FittedRecord> records = records_of_tests(fit, found);
   doubt_stray_row(found.fit.result, records, negligible_residual, findings);
@@ -154,6 +182,7 @@ ExperimentMisfit misfit_of(const ViscoelasticExperiment& test, const PronyLaw& l
 FitFindings write_fit_results(const std::filesystem::path& results, const CaseFile& file,
                               const ViscoelasticFitCase& fit, const ViscoelasticIdentification& found,
                               const FitRun& run) {
+  const ViscoelasticExperiments there = at_reference(fit.experiments, found.fit.law.shift);
   FitReport report{.case_name = run.case_name,
                    .case_hash = run.case_hash,
                    .version = run.version,
@@ -161,15 +190,15 @@ FitFindings write_fit_results(const std::filesystem::path& results, const CaseFi
                    .wall_seconds = run.wall_seconds,
                    .found = judged_tests(fit, found),
                    .experiments = {},
-                   .own = own_findings(ViscoelasticFindings{found.tried, time_window(fit.experiments)})};
+                   .own = own_findings(ViscoelasticFindings{found.tried, time_window(there)})};
   for (const ViscoelasticExperiment& test : fit.experiments) {
     write_csv(results / fit_curve_file(test.name), fitted_curve(test, found.fit.law));
     report.experiments.push_back(misfit_of(test, found.fit.law));
   }
-  const ModulusBand band = modulus_band(found.fit, report.found, fit.experiments, found.deviations);
+  const ModulusBand band = modulus_band(found.fit, report.found, there, found.deviations);
   write_csv(results / modulus_band_file, band.table);
   if (!band.warning.empty()) report.found.warnings.push_back(band.warning);
-  widen_relaxed_modulus(found.fit, fit.experiments, found.deviations, report.found);
+  widen_relaxed_modulus(found.fit, there, found.deviations, report.found);
   write_file(
       results / "case.fitted.toml",
       with_table(file, "material", "# estimated by pfdm fit\n[material]\n" + to_toml(found.fit.law) + "\n", results));

@@ -1,7 +1,9 @@
 #include "cases/program/viscoelastic/viscoelastic_keys.h"
 
 #include "cases/program/input/config/csv_keys.h"
+#include "cases/program/input/config/heat_units.h"
 #include "cases/program/input/laws/prony_keys.h"
+#include "cases/program/input/laws/temperature_shift_reader.h"
 #include "cases/program/point/endochronic_case_keys.h"
 #include "cases/program/studies/study_keys.h"
 
@@ -17,13 +19,16 @@ KeyType deformation() { return keys::choice("deformation", {"tension", "shear"})
 
 const KeyTable& bulk_material_keys() {
   using namespace keys;
-  static const KeyTable table{.name = "material of tests on the bulk material",
-                              .sentence = "The viscoelastic law, by the keys of law = \"prony\" of fracture cases.",
-                              .keys = joined({{{"young_modulus", quantity(dimension::stress, range::positive), "",
-                                                "Young's modulus E at rest for ever, the relaxed one."},
-                                               {"poisson_ratio", number(range::poisson_ratio), "",
-                                                "Poisson's ratio nu at rest for ever, the relaxed one."}},
-                                              prony_branch_keys()})};
+  static const KeyTable table{
+      .name = "material of tests on the bulk material",
+      .sentence = "The viscoelastic law, by the keys of law = \"prony\" of fracture cases.",
+      .keys = joined({{{"young_modulus", quantity(dimension::stress, range::positive), "",
+                        "Young's modulus E at rest for ever, the relaxed one."},
+                       {"poisson_ratio", number(range::poisson_ratio), "",
+                        "Poisson's ratio nu at rest for ever, the relaxed one."}},
+                      prony_branch_keys(),
+                      {temperature_shift_row("How the times of all branches depend on the temperature; of fits to "
+                                             "tests with a temperature.")}})};
   return table;
 }
 
@@ -80,6 +85,17 @@ const KeyTable& frequency_column_keys() {
   return table;
 }
 
+const KeyTable& temperature_column_keys() {
+  using namespace keys;
+  static const KeyTable table{
+      .name = "fit.experiments[].temperature",
+      .sentence = "The column of the temperature.",
+      .keys = {{"column", column_type(), "", "Column of the CSV file: its name, or its number from 1."},
+               {"unit", text("unit"), "that of the file",
+                "Unit of the temperature, as \"degC\" or \"K\"; required where the file does not say it."}}};
+  return table;
+}
+
 const KeyTable& bulk_test_keys() {
   using namespace keys;
   const KeyType column = keys::table(test_column_keys);
@@ -100,6 +116,9 @@ const KeyTable& bulk_test_keys() {
             {"strain", column, "of tests over time", "Column of the strain, of shear the engineering one."},
             {"stress", column, "of tests over time", "Column of the stress."},
             {"frequency", keys::table(frequency_column_keys), "of DMA", "Column of the frequency."},
+            {"temperature",
+             either({quantity(dimension::temperature, range::positive), keys::table(temperature_column_keys)}), "none",
+             "Temperature of the test, of DMA also a column; for materials with a temperature_shift."},
             {"storage_modulus", column, "none", "Column of the storage modulus E' or G'."},
             {"loss_modulus", column, "none", "Column of the loss modulus E'' or G''."},
             {"loss_factor", column, "none", "Column of the loss factor tan delta."}}})};
@@ -113,17 +132,22 @@ const KeyTable& bulk_fit_keys() {
       .sentence = "What of the Prony series is estimated, and from which tests.",
       .keys = {
           {"estimate",
-           list(choice("part of the law that can be estimated", {"young_modulus", "shear_branches", "poisson_ratio"})),
-           "young_modulus, shear_branches", "Parts of the law that are estimated; bulk branches are not."},
+           list(choice("part of the law that can be estimated",
+                       {"young_modulus", "shear_branches", "temperature_shift", "poisson_ratio"})),
+           "all but poisson_ratio",
+           "Parts of the law that are estimated; bulk branches are not, a temperature_shift by tests at several "
+           "temperatures."},
           {"branches", list(whole(branches_range), 2, 2), "those of [material]",
            "Least and largest number of shear branches that are tried."},
           {"times", choice("kind of relaxation times", {"free", "fixed"}), "\"free\"",
            "Times that are estimated, or fixed ones: of [material], or spread over the window of the data."},
           {"bounds",
            names(list(either({number(range::any), quantity(dimension::stress, range::positive),
-                              quantity(dimension::time, range::positive)}),
+                              quantity(dimension::time, range::positive),
+                              quantity(dimension::temperature_difference, range::positive),
+                              quantity(dimension::molar_energy, range::positive)}),
                       2, 2)),
-           "wide", "Bounds of parameters by name, as young_modulus, modulus_1, time_1."},
+           "wide", "Bounds of parameters by name, as young_modulus, modulus_1, time_1, C1, C2, activation_energy."},
           {"experiments", tables(bulk_test_keys), "", "Measured tests, fitted together."}}};
   return table;
 }

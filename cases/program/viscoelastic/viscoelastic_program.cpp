@@ -1,6 +1,7 @@
 #include "cases/program/viscoelastic/viscoelastic_program.h"
 
 #include "cases/program/input/laws/prony_reader.h"
+#include "cases/program/input/laws/temperature_shift_reader.h"
 #include "cases/program/session/fit_verdict.h"
 #include "cases/program/session/report_parts.h"
 #include "cases/program/session/whole_run.h"
@@ -39,12 +40,13 @@ void say_series(const PronyLaw& law, Log& log) {
     for (const PronyBranch& branch : *branches)
       log.say(fmt::format("  {} branch {}, {}", what, quantity_text(branch.modulus, "Pa"),
                           quantity_text(branch.time, "s")));
+  if (law.shift) log.say("  temperature shift: " + words_of(*law.shift));
 }
 
 void say_tests(const ViscoelasticFitCase& fit, const PronyLaw& law, Log& log) {
   const ViscoelasticSettings& settings = fit.settings;
   log.say(fmt::format("fit to {} tests of {} values; relaxation times of {} can be seen", fit.experiments.size(),
-                      n_measured(fit.experiments), text_of(time_window(fit.experiments))));
+                      n_measured(fit.experiments), text_of(time_window(at_reference(fit.experiments, law.shift)))));
   log.say(settings.least_branches > 0
               ? fmt::format("  {} to {} shear branches are tried", settings.least_branches, settings.most_branches)
               : fmt::format("  {} shear branches, beginning with those of [material]", law.shear.size()));

@@ -1,5 +1,6 @@
 #include "cases/program/viscoelastic/viscoelastic_report.h"
 
+#include "cases/program/input/laws/temperature_shift_reader.h"
 #include "cases/program/point/endochronic_fit_charts.h"
 #include "cases/program/session/report_parts.h"
 #include "cases/program/viscoelastic/viscoelastic_fit_band.h"
@@ -31,6 +32,7 @@ Table series_table(const PronyLaw& law) {
     for (const PronyBranch& branch : *branches)
       table.rows.push_back({fmt::format("{} branch: modulus, time", what),
                             fmt::format("{}, {}", shown(branch.modulus, "Pa"), shown(branch.time, "s"))});
+  if (law.shift) table.rows.push_back({"temperature shift", words_of(*law.shift)});
   return table;
 }
 
@@ -88,12 +90,13 @@ Chart over_time(const std::string& caption, const CsvTable& table, std::string_v
 /// Moduli [Pa], or loss factors, over the frequency.
 Chart over_frequency(const std::string& caption, const CsvTable& table, bool moduli, const Columns& columns) {
   const DisplayUnit unit = moduli ? unit_of_columns(table, columns, "Pa") : DisplayUnit{.factor = 1.0, .name = "1"};
+  const bool is_master = std::ranges::count(table.names, "reduced_frequency_Hz") > 0;
   Chart chart{
       .caption = caption,
-      .x = {.title = "frequency [Hz]", .logarithmic = true},
+      .x = {.title = is_master ? "frequency at the reference temperature [Hz]" : "frequency [Hz]", .logarithmic = true},
       .y = {.title = moduli ? fmt::format("modulus [{}]", unit.name) : "loss factor [1]", .logarithmic = moduli},
       .series = {}};
-  add_series(table, "frequency_Hz", columns, unit, chart);
+  add_series(table, is_master ? "reduced_frequency_Hz" : "frequency_Hz", columns, unit, chart);
   return chart;
 }
 

@@ -34,8 +34,7 @@ void require_temperature_difference(const ConfigValue& value) {
   std::string unit;
   if (value.is_string()) unit = unit_of(value.string());
   if (value.is_table() && !is_field(value)) unit = value.table().string("unit", "");
-  if (is_unit_of(unit, dimension::temperature) && parse_quantity("0 " + unit, dimension::temperature) != 0.0)
-    throw value.error("a change of temperature is a difference: give it in K, as in \"20 K\"");
+  if (has_other_zero(unit)) throw value.error("a change of temperature is a difference: give it in K, as in \"20 K\"");
 }
 
 bool apply_from_start(const ConfigTable& root) {

@@ -3,11 +3,11 @@
 #include "cases/program/fracture/body/body_keys.h"
 #include "cases/program/fracture/body/body_loads.h"
 #include "cases/program/fracture/body/material_laws.h"
-#include "cases/program/fracture/body/temperature_shift_case.h"
 #include "cases/program/input/config/heat_units.h"
 #include "cases/program/input/laws/endochronic_keys.h"
 #include "cases/program/input/laws/law_reader.h"
 #include "cases/program/input/laws/prony_keys.h"
+#include "cases/program/input/laws/temperature_shift_reader.h"
 #include "physics/elasticity/effective_stiffness.h"
 
 #include <fmt/format.h>
@@ -186,7 +186,8 @@ const KeyTable& material_keys() {
             {"kinematic_hardening", quantity(dimension::stress, range::not_negative), "0",
              "Slope of the back stress by the equivalent plastic strain.", j2}},
            prony_branch_keys(viscous, viscous),
-           {temperature_shift_row(viscous)},
+           {temperature_shift_row(
+               "How the times of all branches depend on the temperature; needs loads.start_temperature.", viscous)},
            {{"driven_by", choice("driving energy", {"equilibrium", "stored"}), "\"equilibrium\"",
              "Energy that drives damage: of the relaxed elasticity, or all that is stored, also in the branches.",
              viscous},

@@ -1,8 +1,8 @@
 #include "cases/program/fracture/body/material_laws.h"
 
-#include "cases/program/fracture/body/temperature_shift_case.h"
 #include "cases/program/input/laws/endochronic_reader.h"
 #include "cases/program/input/laws/prony_reader.h"
+#include "cases/program/input/laws/temperature_shift_reader.h"
 #include "physics/materials/endochronic_material.h"
 #include "physics/materials/hyperelastic.h"
 #include "physics/materials/j2_plasticity.h"

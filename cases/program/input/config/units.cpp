@@ -174,6 +174,11 @@ bool is_unit_of(std::string_view text, const Dimension& due) {
   return unit && same_dimension(unit.get(), parse_unit(due.si_unit).get());
 }
 
+bool has_other_zero(std::string_view unit) {
+  return is_unit_of(unit, dimension::temperature) &&
+         parse_quantity(fmt::format("0 {}", unit), dimension::temperature) != 0.0;
+}
+
 const Dimension& dimension_of(std::string_view text) {
   const std::lock_guard lock(udunits);
   const std::string_view spelled = unit_of(text);

@@ -49,6 +49,8 @@ double unit_in_si(std::string_view unit, const Dimension& due);
 bool is_unit(std::string_view text);
 /// Whether it is a unit of this dimension.
 bool is_unit_of(std::string_view text, const Dimension& due);
+/// Whether it is one of temperatures whose zero is not 0 K, as "degC".
+bool has_other_zero(std::string_view unit);
 
 /// Which of the dimensions above the text's quantity has; of several alike the first. Throws InputError for what is no
 /// quantity, or is of none of them.

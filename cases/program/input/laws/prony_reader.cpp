@@ -1,5 +1,6 @@
 #include "cases/program/input/laws/prony_reader.h"
 
+#include "cases/program/input/laws/temperature_shift_reader.h"
 #include "physics/quantity_text.h"
 
 #include <fmt/format.h>
@@ -44,13 +45,15 @@ std::vector<PronyBranch> read_bulk_branches(const ConfigTable& material) {
 PronyLaw read_prony_series(const ConfigTable& material) {
   return {.relaxed = from_young_poisson(material.quantity("young_modulus"), material.number("poisson_ratio")),
           .shear = read_shear_branches(material),
-          .bulk = read_bulk_branches(material)};
+          .bulk = read_bulk_branches(material),
+          .shift = read_temperature_shift(material)};
 }
 
 std::string to_toml(const PronyLaw& law, int digits) {
   return fmt::format("young_modulus = \"{}\"\npoisson_ratio = {:.{}g}\n",
                      quantity_text(law.relaxed.young_modulus(), "Pa", digits), law.relaxed.poisson_ratio(), digits) +
-         branches_toml("shear_branches", law.shear, digits) + branches_toml("bulk_branches", law.bulk, digits);
+         branches_toml("shear_branches", law.shear, digits) + branches_toml("bulk_branches", law.bulk, digits) +
+         (law.shift ? to_toml(*law.shift, digits) : "");
 }
 
 }  // namespace pfdm

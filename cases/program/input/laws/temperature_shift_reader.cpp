@@ -1,7 +1,9 @@
-#include "cases/program/fracture/body/temperature_shift_case.h"
+#include "cases/program/input/laws/temperature_shift_reader.h"
 
-#include "cases/program/fracture/body/body_loads.h"
 #include "cases/program/input/config/heat_units.h"
+#include "physics/quantity_text.h"
+
+#include <fmt/format.h>
 
 namespace pfdm {
 namespace {
@@ -26,9 +28,8 @@ const KeyTable& shift_keys() {
 
 }  // namespace
 
-Key temperature_shift_row(std::string_view only) {
-  return {"temperature_shift", keys::table(shift_keys), "none",
-          "How the times of all branches depend on the temperature; needs loads.start_temperature.", only};
+Key temperature_shift_row(std::string_view sentence, std::string_view only) {
+  return {"temperature_shift", keys::table(shift_keys), "none", sentence, only};
 }
 
 std::optional<TemperatureShift> read_temperature_shift(const ConfigTable& material) {
@@ -39,11 +40,29 @@ std::optional<TemperatureShift> read_temperature_shift(const ConfigTable& materi
     shift.law = TemperatureShift::Law::arrhenius;
     shift.activation_energy = table.quantity("activation_energy");
   } else {
-    require_temperature_difference(table.at("C2"));
+    if (const ConfigValue c2 = table.at("C2"); has_other_zero(unit_of(c2.string())))
+      throw c2.error("C2 is a difference of temperatures: give it in K, as in \"51.6 K\"");
     shift.c1 = table.number("C1");
     shift.c2 = table.quantity("C2");
   }
   return shift;
+}
+
+std::string words_of(const TemperatureShift& shift) {
+  const std::string reference = quantity_text(shift.reference, "K", 5);
+  if (shift.law == TemperatureShift::Law::arrhenius)
+    return fmt::format("Arrhenius, {} from {}", quantity_text(shift.activation_energy, "J/mol", 4), reference);
+  return fmt::format("WLF, C1 {:.4g}, C2 {} from {}", shift.c1, quantity_text(shift.c2, "K", 4), reference);
+}
+
+std::string to_toml(const TemperatureShift& shift, int digits) {
+  const std::string reference = quantity_text(shift.reference, "K", digits);
+  if (shift.law == TemperatureShift::Law::arrhenius)
+    return fmt::format(
+        "temperature_shift = {{ law = \"arrhenius\", reference = \"{}\", activation_energy = \"{}\" }}\n", reference,
+        quantity_text(shift.activation_energy, "J/mol", digits));
+  return fmt::format("temperature_shift = {{ law = \"wlf\", reference = \"{}\", C1 = {:.{}g}, C2 = \"{}\" }}\n",
+                     reference, shift.c1, digits, quantity_text(shift.c2, "K", digits));
 }
 
 }  // namespace pfdm
