@@ -113,6 +113,7 @@ ForceBalance Staggered::tightened(const FractureState& start, const FractureStat
     if (balance.is_tightest) break;
     share = left;
   }
+  if (!tried.displacement.empty()) degrade(state);  // it stays accepted where nothing helped
   return balance;
 }
 

@@ -87,13 +87,15 @@ Chart over_time(const std::string& caption, const CsvTable& table, std::string_v
   return chart;
 }
 
+constexpr const char* reduced_frequency = "frequency at the reference temperature [Hz]";
+
 /// Moduli [Pa], or loss factors, over the frequency.
 Chart over_frequency(const std::string& caption, const CsvTable& table, bool moduli, const Columns& columns) {
   const DisplayUnit unit = moduli ? unit_of_columns(table, columns, "Pa") : DisplayUnit{.factor = 1.0, .name = "1"};
   const bool is_master = std::ranges::count(table.names, "reduced_frequency_Hz") > 0;
   Chart chart{
       .caption = caption,
-      .x = {.title = is_master ? "frequency at the reference temperature [Hz]" : "frequency [Hz]", .logarithmic = true},
+      .x = {.title = is_master ? reduced_frequency : "frequency [Hz]", .logarithmic = true},
       .y = {.title = moduli ? fmt::format("modulus [{}]", unit.name) : "loss factor [1]", .logarithmic = moduli},
       .series = {}};
   add_series(table, is_master ? "reduced_frequency_Hz" : "frequency_Hz", columns, unit, chart);
@@ -146,7 +148,7 @@ std::vector<double> shown_end(const CsvTable& table, const std::string& end, con
 }
 
 /// Storage and loss modulus of the fit, "young" or "shear", with their 95 % bands where they are known.
-Chart moduli_of_fit(const CsvTable& table, const std::string& which, const std::string& letter) {
+Chart moduli_of_fit(const CsvTable& table, const std::string& which, const std::string& letter, bool is_shifted) {
   const std::string storage = which + "_storage_modulus_Pa", loss = which + "_loss_modulus_Pa";
   Columns columns{{storage, letter + "'"}, {loss, letter + "''"}};
   const bool is_known = std::ranges::count(table.names, "lower_" + storage) > 0;
@@ -154,6 +156,7 @@ Chart moduli_of_fit(const CsvTable& table, const std::string& which, const std::
       over_frequency(is_known ? "Complex modulus of the fit, 95 % bands (to a tenth and ten times of it at most)"
                               : "Complex modulus of the fit",
                      table, true, columns);
+  if (is_shifted) chart.x.title = reduced_frequency;
   const DisplayUnit unit = unit_of_columns(table, columns, "Pa");
   for (int k = 0; is_known && k < 2; ++k) {
     const std::string& column = columns[static_cast<std::size_t>(k)].first;
@@ -168,7 +171,7 @@ Chart moduli_of_fit(const CsvTable& table, const std::string& which, const std::
   return chart;
 }
 
-std::vector<PageRow> rows_of_fit(const FitReport& fit, const fs::path& results) {
+std::vector<PageRow> rows_of_fit(const FitReport& fit, const fs::path& results, bool is_shifted) {
   std::vector<PageBlock> charts;
   for (const ExperimentMisfit& test : fit.experiments) {
     const CsvTable curve = read_csv(results / test.curve);
@@ -183,8 +186,8 @@ std::vector<PageRow> rows_of_fit(const FitReport& fit, const fs::path& results) 
   }
   if (const fs::path file = results / modulus_band_file; fs::exists(file)) {
     const CsvTable moduli = read_csv(file, {.has_gaps = true});  // ends may be inf
-    charts.emplace_back(moduli_of_fit(moduli, "young", "E"));
-    charts.emplace_back(moduli_of_fit(moduli, "shear", "G"));
+    charts.emplace_back(moduli_of_fit(moduli, "young", "E", is_shifted));
+    charts.emplace_back(moduli_of_fit(moduli, "shear", "G", is_shifted));
   }
   return in_pairs(std::move(charts));
 }
@@ -206,7 +209,7 @@ ReportPage viscoelastic_page(const ViscoelasticCase& c, const std::string& name,
   if (run)
     for (PageRow& row : rows_of_run(c, results)) page.rows.push_back(std::move(row));
   if (fit)
-    for (PageRow& row : rows_of_fit(*fit, results)) page.rows.push_back(std::move(row));
+    for (PageRow& row : rows_of_fit(*fit, results, c.law.shift.has_value())) page.rows.push_back(std::move(row));
   for (const char* log : {"run.log", "fit.log"})
     for (PageRow& row : warnings_row(results / log)) page.rows.push_back(std::move(row));
   return page;

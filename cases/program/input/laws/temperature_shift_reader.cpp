@@ -41,7 +41,7 @@ std::optional<TemperatureShift> read_temperature_shift(const ConfigTable& materi
     shift.activation_energy = table.quantity("activation_energy");
   } else {
     if (const ConfigValue c2 = table.at("C2"); has_other_zero(unit_of(c2.string())))
-      throw c2.error("C2 is a difference of temperatures: give it in K, as in \"51.6 K\"");
+      throw c2.error("C2 is a difference of temperatures: give it in K, as in \"20 K\"");
     shift.c1 = table.number("C1");
     shift.c2 = table.quantity("C2");
   }

@@ -33,13 +33,25 @@ function extent_of(chart, axis) {
   return [given.from ?? least, given.to ?? most];
 }
 
-/** Of a logarithmic axis: powers of ten, and 2 and 5 times these where there are few. */
+/** Of a logarithmic axis: powers of ten, and their multiples where there are few. */
+function log_ticks(u, axis, least, most) {
+  const digits = Math.log10(most / least) > 6 ? [1] : [1, 2, 3, 4, 5, 6, 7, 8, 9];
+  const ticks = [];
+  for (let power = Math.floor(Math.log10(least)); power <= Math.ceil(Math.log10(most)); ++power)
+    for (const digit of digits) ticks.push(Number(`${digit}e${power}`));
+  return ticks.filter((v) => v >= least && v <= most);
+}
+
+/** Of these: powers of ten, of many each so many that they have room, and 2 and 5 times these where there are few. */
 const with_label = (name) => (u, ticks) => {
   const { min, max } = u.scales[name];
-  const few = Math.log10(max / min) < 2.5;
+  const decades = Math.log10(max / min);
+  const stride = Math.max(1, Math.ceil(decades / (name === "x" ? 7 : 10)));
   return ticks.map((v) => {
-    const lead = Math.round(v / 10 ** Math.floor(Math.log10(v) + 1e-9));
-    return lead === 1 || (few && (lead === 2 || lead === 5)) ? v : null;
+    const power = Math.floor(Math.log10(v) + 1e-9);
+    const lead = Math.round(v / 10 ** power);
+    if (lead === 1) return power % stride === 0 ? v : null;
+    return decades < 2.5 && (lead === 2 || lead === 5) ? v : null;
   });
 };
 
@@ -65,7 +77,7 @@ function options_of(chart, width, seen, hooks) {
     font: '13px "Liberation Sans", Helvetica, Arial, sans-serif',
     labelFont: '14px "Liberation Sans", Helvetica, Arial, sans-serif',
     size: name === "y" ? 64 : 44,
-    ...(chart[name].logarithmic ? { filter: with_label(name) } : {}),
+    ...(chart[name].logarithmic ? { splits: log_ticks, filter: with_label(name) } : {}),
     values: (u, ticks, _, space, step) => ticks.map((v) => (v === null ? "" : tick_words(v, step))),
   });
   return {
