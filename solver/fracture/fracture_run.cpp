@@ -215,16 +215,6 @@ StepReport FractureRun::report_of(const FractureState& start) {
   return report;
 }
 
-namespace {
-
-/// Whether a step did not converge for tolerances below the given ones: it did just before, or all else has.
-bool is_too_tight(const StepOutcome& outcome, const ForceBalance& now, const ForceBalance& before) {
-  if (outcome.converged || outcome.broke_too_much || outcome.collapsed) return false;
-  return now.tightening < before.tightening || (now.tightening < 1.0 && outcome.settled);
-}
-
-}  // namespace
-
 StepReport FractureRun::step(FractureState& state, const IterationWatch& watch) {
   const double stop = next_frame(parts_->loading, state.load);
   if (const double n = parts_->staggered.fatigue().cycles_to_jump(state, stop); n > 0.0) {
@@ -240,14 +230,8 @@ StepReport FractureRun::step(FractureState& state, const IterationWatch& watch) 
   for (;;) {
     Trial trial = parts_->attempt(state, planned, balance, watch);
     const StepOutcome& outcome = trial.outcome;
-    if (outcome.balance.tightening < balance.tightening) {
-      balance.tightening = outcome.balance.tightening;
-      balance.is_tightest = outcome.balance.is_tightest;
-      continue;
-    }
-    if (is_too_tight(outcome, balance, state.balance)) {
-      balance.tightening = balance.tightening < state.balance.tightening ? state.balance.tightening : 1.0;
-      balance.is_tightest = true;
+    if (const auto other = other_tolerances(outcome, balance, state.balance)) {
+      balance = *other;
       continue;
     }
     if (outcome.collapsed) parts_->fail_torn(state.load, trial.state.load);

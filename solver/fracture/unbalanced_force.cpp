@@ -6,6 +6,20 @@
 
 namespace pfdm {
 
+std::optional<ForceBalance> other_tolerances(const StepOutcome& outcome, ForceBalance now, const ForceBalance& before) {
+  if (outcome.balance.tightening < now.tightening) {
+    now.tightening = outcome.balance.tightening;
+    now.is_tightest = outcome.balance.is_tightest;
+    return now;
+  }
+  const bool is_in_vain = !outcome.converged && !outcome.broke_too_much && !outcome.collapsed;
+  const bool is_smaller = now.tightening < before.tightening;
+  if (!is_in_vain || !(is_smaller || (now.tightening < 1.0 && outcome.settled))) return std::nullopt;
+  now.tightening = is_smaller ? before.tightening : 1.0;
+  now.is_tightest = true;
+  return now;
+}
+
 std::string UnbalancedForce::remark(const Unknowns& unknowns, std::span<const Vector> on_faces, double load,
                                     double greatest, double tolerance) {
   constexpr double tolerable = 5e-3;

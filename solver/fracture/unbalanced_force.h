@@ -1,12 +1,19 @@
 #pragma once
-// Whether the forces on the body balance each other, where tolerances could not be made small enough for it.
+// Tolerances with which the forces on the parts of a body balance (solver/momentum/solution/force_balance.h), and a
+// warning where none are small enough.
 
+#include "solver/fracture/equilibrium/step_outcome.h"
 #include "solver/momentum/body/unknowns.h"
 
+#include <optional>
 #include <span>
 #include <string>
 
 namespace pfdm {
+
+/// With which tolerances a step is tried again: smaller ones that it should have had; or larger ones where it did not
+/// converge for those alone, as it did just before, or as all else has. Nothing: it is not. `before`: of its start.
+std::optional<ForceBalance> other_tolerances(const StepOutcome& outcome, ForceBalance now, const ForceBalance& before);
 
 /// Watches a run for steps after which the forces on the surface do not sum to zero.
 class UnbalancedForce {

@@ -131,6 +131,15 @@ void join_near(std::vector<PronyBranch>& branches, double factor, std::size_t mo
   }
 }
 
+/// With the branches of a fine grid of times.
+PronyLaw law_of_fine_times(const PronyLaw& law, bool holds_relaxed, const ViscoelasticExperiments& experiments,
+                           std::span<const double> deviations) {
+  const TimeWindow window = time_window(at_reference(experiments, law.shift));
+  const double decades = std::log10(window.longest / window.shortest);
+  const int points = std::clamp(static_cast<int>(std::ceil(fine_per_decade * decades)) + 1, 2, 80);
+  return law_of_times(law, holds_relaxed, experiments, deviations, spread_times(window, points));
+}
+
 }  // namespace
 
 std::vector<double> spread_times(const TimeWindow& window, int n) {
@@ -161,19 +170,6 @@ PronyLaw law_of_times(const PronyLaw& law, bool holds_relaxed, const Viscoelasti
     if (moduli[i] > 1e-9 * sum) result.shear.push_back({moduli[i], times[static_cast<std::size_t>(i) - 1]});
   return result;
 }
-
-namespace {
-
-/// With the branches of a fine grid of times.
-PronyLaw law_of_fine_times(const PronyLaw& law, bool holds_relaxed, const ViscoelasticExperiments& experiments,
-                           std::span<const double> deviations) {
-  const TimeWindow window = time_window(at_reference(experiments, law.shift));
-  const double decades = std::log10(window.longest / window.shortest);
-  const int points = std::clamp(static_cast<int>(std::ceil(fine_per_decade * decades)) + 1, 2, 80);
-  return law_of_times(law, holds_relaxed, experiments, deviations, spread_times(window, points));
-}
-
-}  // namespace
 
 PronyLaw law_of_shift(const PronyLaw& law, bool holds_relaxed, const ViscoelasticExperiments& experiments,
                       std::span<const double> deviations) {
