@@ -98,20 +98,25 @@ ForceBalance Staggered::tightened(const FractureState& start, const FractureStat
   const auto imbalance = [&](const FractureState& at, double through) {
     return unbalanced_force(momentum_, at.load, at.displacement) / std::max({before, through, 1e-300});
   };
+  const auto stresses = [&](const FractureState& at) {
+    return momentum_.balance().mechanics(at.displacement, MomentumOperator::Wanted::without_gradient).stress;
+  };
   const double least = least_tolerance / std::min(last_tolerance, given_tolerance_);
+  double tightening = balance.tightening;
   FractureState tried{};
-  for (double share = imbalance(state, force); share > bearable_imbalance;) {
+  for (double share = imbalance(state, force); share > bearable_imbalance && !balance.is_tightest;) {
     if (tried.displacement.empty()) tried = state;
-    const double tightening = std::max(least, needed_tightening(share) * balance.tightening);
+    tightening = std::max(least, needed_tightening(share) * tightening);
     balance_exactly(start, tightening, tried);
-    const CellMechanics cells =
-        momentum_.balance().mechanics(tried.displacement, MomentumOperator::Wanted::without_gradient);
-    const double left =
-        imbalance(tried, force_through(mesh_, momentum_.balance().boundary_forces(tried.displacement), cells.stress));
-    balance.is_tightest = !(left < is_less * share) || tightening == least;
-    if (left < is_less * share) balance.tightening = tightening;
-    if (balance.is_tightest) break;
+    const CellField<Tensor> stress = stresses(tried);
+    const double through = force_through(mesh_, momentum_.balance().boundary_forces(tried.displacement), stress);
+    const double left = imbalance(tried, through);
+    const bool helps = left < is_less * share, falls = std::max(before, through) < is_less * force;
+    if (!helps && falls && !any_stress_stays(stresses(state), stress)) return state.balance;
+    if (helps) balance.tightening = tightening;
+    balance.is_tightest = tightening == least || !(helps || falls);
     share = left;
+    force = through;
   }
   if (!tried.displacement.empty()) degrade(state);  // it stays accepted where nothing helped
   return balance;

@@ -21,6 +21,10 @@ double force_through(const Mesh& mesh, std::span<const Vector> on_faces, const C
 /// The sum of what is left on the nodes [N] by these displacements: no part of the body is farther out of balance.
 double unbalanced_force(const MomentumSolver& momentum, double load, const std::vector<Vector>& displacement);
 
+/// Whether stresses stay where smaller tolerances leave less force, as in what is soft between stiff parts. In a body
+/// on which no force acts, as one that warms freely, all stresses are what tolerances leave.
+bool any_stress_stays(const CellField<Tensor>& stress, const CellField<Tensor>& with_smaller_tolerances);
+
 /// The factor, a power of ten, by which tolerances have to be smaller for this imbalance to become bearable.
 double needed_tightening(double imbalance);
 
