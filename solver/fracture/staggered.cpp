@@ -112,7 +112,10 @@ ForceBalance Staggered::tightened(const FractureState& start, const FractureStat
     const double through = force_through(mesh_, momentum_.balance().boundary_forces(tried.displacement), stress);
     const double left = imbalance(tried, through);
     const bool helps = left < is_less * share, falls = std::max(before, through) < is_less * force;
-    if (!helps && falls && !any_stress_stays(stresses(state), stress)) return state.balance;
+    if (!helps && falls && !any_stress_stays(stresses(state), stress)) {
+      balance = state.balance;
+      break;
+    }
     if (helps) balance.tightening = tightening;
     balance.is_tightest = tightening == least || !(helps || falls);
     share = left;
