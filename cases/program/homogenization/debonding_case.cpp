@@ -1,6 +1,7 @@
 #include "cases/program/homogenization/debonding_case.h"
 
 #include "cases/program/fracture/outcome/mean_curve.h"
+#include "cases/program/homogenization/homogenization_case.h"
 #include "cases/program/homogenization/homogenization_keys.h"
 #include "cases/program/studies/sweep/sweep_case.h"
 #include "solver/homogenization/mean_path.h"
@@ -113,6 +114,7 @@ bool has_mean_path(const ConfigTable& root) {
 }
 
 FractureCase read_debonding_case(const ConfigTable& root, const std::filesystem::path& case_directory, MeshOf mesh) {
+  refuse_free_strains(root);
   root.with_keys(debonding_keys());
   const ConfigTable table = root.table("homogenization");
   const auto boundary = table.find("boundary");

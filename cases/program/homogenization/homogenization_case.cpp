@@ -53,8 +53,21 @@ HomogenizationSettings read_settings(const ConfigTable& root) {
 
 }  // namespace
 
+void refuse_free_strains(const ConfigTable& root) {
+  for (const char* table : {"materials", "regions"}) {
+    if (!root.has(table)) continue;
+    for (const auto& [name, of_name] : root.table(table).entries())
+      for (const char* key : {"expansion", "eigenstrain", "temperature_shift"})
+        if (of_name.is_table() && of_name.table().has(key))
+          throw of_name.table().at(key).error(
+              "a box that follows its mean strain has no temperature and no eigenstrains; cases of kind \"fracture\" "
+              "have");
+  }
+}
+
 HomogenizationCase read_homogenization_case(const ConfigTable& root, const std::filesystem::path& case_directory,
                                             MeshOf mesh) {
+  refuse_free_strains(root);
   refuse_keys_of_paths(root);
   HomogenizationCase homogenization;
   homogenization.title = root.line("title");

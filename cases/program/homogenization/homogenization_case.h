@@ -31,6 +31,9 @@ struct HomogenizationCase {
   HomogenizationSettings settings;
 };
 
+/// Keys of strains that make no stress, and of temperatures. Throws InputError that names the first.
+void refuse_free_strains(const ConfigTable& root);
+
 /// `root` is the whole case file. Throws InputError for all that can be told without the mesh.
 HomogenizationCase read_homogenization_case(const ConfigTable& root, const std::filesystem::path& case_directory,
                                             MeshOf mesh = MeshOf::the_case);
