@@ -116,7 +116,7 @@ ForceBalance Staggered::tightened(const FractureState& start, const FractureStat
       balance = state.balance;
       break;
     }
-    if (helps) balance.tightening = tightening;
+    if (helps || falls) balance.tightening = tightening;
     balance.is_tightest = tightening == least || !(helps || falls);
     share = left;
     force = through;
