@@ -149,8 +149,7 @@ struct FractureRun::Parts {
     StepReport result = report(state, outcome, increment);
     if (!model.motion.any() && !model.has_body_force())
       if (const std::string remark =
-              unbalanced_force.remark(unknowns, state.boundary_force, state.load, state.balance.greatest_force,
-                                      staggered.settings().equilibrium_tolerance);
+              unbalanced_force.remark(unknowns, state.boundary_force, state.load, state.balance.greatest_force);
           !remark.empty())
         remarks.push_back(remark);
     result.remarks = std::move(remarks);
