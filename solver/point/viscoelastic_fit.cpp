@@ -115,6 +115,7 @@ std::vector<FitParameter> fit_parameters(const PronyLaw& law, const Viscoelastic
   visit_branches(law.shear, choice, [&](std::string name, std::string_view unit, double value) {
     const bool is_time = unit == "s";
     const bool has_window = is_time && window.longest > 0.0;
+    if (!is_time) value = std::max(value, least_modulus);
     const double lower = has_window ? window.shortest / reach_of_time : value / reach_of_modulus;
     const double upper = has_window ? window.longest * reach_of_time : value * reach_of_modulus;
     parameters.push_back(on_log_scale(std::move(name), unit, value, std::max(lower, is_time ? 1e-15 : least_modulus),

@@ -154,7 +154,8 @@ FitFindings judged_tests(const ViscoelasticFitCase& fit, const ViscoelasticIdent
         fmt::format("a Prony series of {} shear branch{}, the same in all tests, is the wrong model for these data, "
                     "which it misses by up to {:.2g} %{}",
                     found.fit.law.shear.size(), found.fit.law.shear.size() == 1 ? "" : "es", 100.0 * misfit,
-                    found.fit.law.shift ? "" : "; tests at several temperatures need a temperature_shift"));
+                    found.fit.law.shift ? "; it shifts times alone: no moduli, and all processes by one law"
+                                        : "; tests at several temperatures need a temperature_shift"));
   if (const auto flow = doubt_of_flow(found.fit)) question(findings, *flow);
   const std::vector<FittedRecord> records = records_of_tests(fit, found);
   doubt_stray_row(found.fit.result, records, negligible_residual, findings);

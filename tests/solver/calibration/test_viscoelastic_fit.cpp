@@ -170,6 +170,16 @@ TEST(ViscoelasticFit, IntervalsOfTwentyRepetitionsHoldTheTruth) {
   for (const auto& [name, total] : sum) EXPECT_LE(std::abs(total / n), 0.7) << name;  // 3.1 standard errors of the mean
 }
 
+// A branch of nothing keeps bounds with room between them.
+TEST(ViscoelasticFit, BoundsOfBranchesOfNothingAreBounds) {
+  const PronyLaw law{.relaxed = from_young_poisson(1e6, 0.49), .shear = {{1e-12, 1.0}}};
+  for (const FitParameter& p : fit_parameters(law, {}, {.shortest = 0.1, .longest = 10.0})) {
+    EXPECT_LT(p.lower, p.upper) << p.name;
+    EXPECT_LE(p.lower, p.first) << p.name;
+    EXPECT_LE(p.first, p.upper) << p.name;
+  }
+}
+
 // Rest before the load, and rows close to each other while it stays, show no relaxation.
 TEST(ViscoelasticFit, TheWindowIsThatOfTheLoad) {
   ViscoelasticExperiment test = relaxation_test(true_series, 0.0, 1, 20.0);
