@@ -54,6 +54,8 @@ TimeWindow time_window(const ViscoelasticExperiments& experiments);
 ViscoelasticExperiment at_reference(ViscoelasticExperiment experiment, const std::optional<TemperatureShift>& shift);
 ViscoelasticExperiments at_reference(const ViscoelasticExperiments& experiments,
                                      const std::optional<TemperatureShift>& shift);
+/// The rows of a frequency sweep by rising values of `by`, one for each.
+void sort_rows(ViscoelasticExperiment& sweep, std::vector<double> by);
 /// How many temperatures there are.
 std::size_t n_temperatures(const ViscoelasticExperiments& experiments);
 /// "1.6 us to 10 ks"

@@ -33,8 +33,8 @@ struct Problem {
 int most_branches(const PronyLaw& law, const ViscoelasticExperiments& experiments,
                   const ViscoelasticSettings& settings) {
   const auto n = static_cast<int>(std::min<std::size_t>(n_measured(experiments), 1000));
-  const int of_shift = settings.choice.shift && law.shift ? (law.shift->law == TemperatureShift::Law::wlf ? 2 : 1) : 0;
-  const int others = (settings.choice.young_modulus ? 1 : 0) + (settings.choice.poisson_ratio ? 1 : 0) + of_shift;
+  const PronyLaw without_branches{.relaxed = law.relaxed, .shift = law.shift};
+  const auto others = static_cast<int>(fit_parameters(without_branches, settings.choice, {}).size());
   const auto with_values_for = [&](int parameters) { return (parameters - others) / (settings.choice.times ? 2 : 1); };
   int most = std::min(settings.most_branches, with_values_for(n));
   // The noise that is not known is that about the law with most branches, which must not follow it.

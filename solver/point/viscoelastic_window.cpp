@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <set>
 #include <utility>
 
@@ -65,6 +66,19 @@ ViscoelasticExperiments at_reference(const ViscoelasticExperiments& experiments,
   ViscoelasticExperiments there;
   for (const ViscoelasticExperiment& experiment : experiments) there.push_back(at_reference(experiment, shift));
   return there;
+}
+
+void sort_rows(ViscoelasticExperiment& sweep, std::vector<double> by) {
+  std::vector<std::size_t> order(by.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::stable_sort(order, {}, [&](std::size_t i) { return by[i]; });
+  const auto sort = [&](std::vector<double>& values) {
+    const std::vector<double> before = values;
+    for (std::size_t i = 0; i < order.size(); ++i) values[i] = before[order[i]];
+  };
+  for (ViscoelasticExperiment::Channel& channel : sweep.channels) sort(channel.values);
+  sort(sweep.angular_frequencies);
+  if (sweep.temperatures.size() > 1) sort(sweep.temperatures);
 }
 
 std::size_t n_temperatures(const ViscoelasticExperiments& experiments) {

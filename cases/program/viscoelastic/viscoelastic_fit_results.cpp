@@ -16,7 +16,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <numeric>
 
 namespace pfdm {
 namespace {
@@ -31,23 +30,6 @@ std::string column_of(MeasuredQuantity quantity) {
   return key_with_unit(name, std::string(unit_of(quantity)));
 }
 
-/// Of a test at several temperatures: these, and its frequencies at the reference, by which it is sorted.
-ViscoelasticExperiment in_order_at_reference(const ViscoelasticExperiment& test, const PronyLaw& law) {
-  const std::vector<double> there = at_reference(test, law.shift).angular_frequencies;
-  std::vector<std::size_t> order(there.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::ranges::stable_sort(order, {}, [&](std::size_t i) { return there[i]; });
-  const auto sorted = [&](std::vector<double>& values) {
-    const std::vector<double> all = values;
-    for (std::size_t i = 0; i < order.size(); ++i) values[i] = all[order[i]];
-  };
-  ViscoelasticExperiment result = test;
-  sorted(result.angular_frequencies);
-  sorted(result.temperatures);
-  for (ViscoelasticExperiment::Channel& channel : result.channels) sorted(channel.values);
-  return result;
-}
-
 std::vector<double> in_hertz(std::vector<double> angular_frequencies) {
   for (double& f : angular_frequencies) f /= 2.0 * std::numbers::pi;
   return angular_frequencies;
@@ -55,7 +37,8 @@ std::vector<double> in_hertz(std::vector<double> angular_frequencies) {
 
 CsvTable fitted_curve(const ViscoelasticExperiment& measured, const PronyLaw& law) {
   const bool is_master = measured.is_frequency_sweep() && measured.temperatures.size() > 1;
-  const ViscoelasticExperiment test = is_master ? in_order_at_reference(measured, law) : measured;
+  ViscoelasticExperiment test = measured;
+  if (is_master) sort_rows(test, at_reference(measured, law.shift).angular_frequencies);
   CsvTable table;
   table.comments.push_back(
       fmt::format("test {}, {}: measured, and by the fitted law", test.name, name_of(test.deformation)));

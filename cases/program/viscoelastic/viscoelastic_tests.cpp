@@ -11,7 +11,6 @@
 #include <array>
 #include <cmath>
 #include <numbers>
-#include <numeric>
 
 namespace pfdm {
 namespace {
@@ -133,21 +132,6 @@ void refuse(const ConfigTable& test, std::initializer_list<const char*> keys, st
     if (test.has(key)) throw test.at(key).error(why);
 }
 
-/// Rows by rising frequency: instruments also sweep down.
-void sort_by_frequency(ViscoelasticExperiment& experiment) {
-  std::vector<std::size_t> order(experiment.angular_frequencies.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::ranges::stable_sort(order, {}, [&](std::size_t i) { return experiment.angular_frequencies[i]; });
-  const auto sorted = [&](const std::vector<double>& values) {
-    std::vector<double> result;
-    for (const std::size_t i : order) result.push_back(values[i]);
-    return result;
-  };
-  for (Channel& channel : experiment.channels) channel.values = sorted(channel.values);
-  experiment.angular_frequencies = sorted(experiment.angular_frequencies);
-  if (experiment.temperatures.size() > 1) experiment.temperatures = sorted(experiment.temperatures);
-}
-
 void require_positive(const ConfigTable& test, const std::vector<double>& angular_frequencies,
                       const std::vector<double>& storage) {
   const auto least = std::ranges::min_element(storage);
@@ -178,7 +162,7 @@ void read_dma(const ConfigTable& test, const CsvTable& file, ViscoelasticExperim
   for (Channel& channel : experiment.channels) used.push_back(&channel.values);
   if (experiment.temperatures.size() > 1) used.push_back(&experiment.temperatures);
   leave_out_gaps(test, used);
-  sort_by_frequency(experiment);
+  sort_rows(experiment, experiment.angular_frequencies);  // instruments also sweep down
   if (!(experiment.angular_frequencies.front() > 0.0)) throw test.at("frequency").error("frequencies must be positive");
   for (const Channel& channel : experiment.channels)
     if (channel.quantity == MeasuredQuantity::storage_modulus)
